@@ -29,9 +29,9 @@ mechanics::GaussOptions solve_options(const SceneOptions& options, const SolveSe
   if (made.method != nullptr) return made;
   std::vector<std::string> known;
   for (const convex::Method& method : convex::methods()) known.emplace_back(method.name);
-  throw InvalidInput(
-      "unknown method \"" + name + "\"; " + convex::suggestion(name, known, "`moreau methods` lists them"),
-      from_file ? std::optional(settings.method_place) : std::nullopt);
+  throw InvalidInput((from_file ? "" : "--method: ") + ("unknown method \"" + name + "\"; ") +
+                         convex::suggestion(name, known, "`moreau methods` lists them"),
+                     from_file ? std::optional(settings.method_place) : std::nullopt);
 }
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {

@@ -37,7 +37,7 @@ struct Judged {
   const GaussSolution& solution;
   Vector slack;   ///< Uq'' - s, rounded once: m
   Vector length;  ///< ||u_a||_(A⁻¹): m, 0 where no law needs it
-  Vector row;     ///< what the error bound and rounding allow u_a·q'' - s_a: m
+  Vector row;     ///< what the error bound, rounding and radii allow u_a·q'' - s_a: m
   double size;    ///< ||q''||_A + ||z||_(A⁻¹)
   std::vector<bool> two_sided;
   const Vector& q() const { return solution.primal.q; }
@@ -46,6 +46,17 @@ struct Judged {
   double error() const { return solution.primal.error_bound; }
   double steps() const { return static_cast<double>(problem.dimension() + problem.rows()); }
 };
+
+/// Rows are those of the mechanism within their radii. Those that depend on each other count as consistent:
+/// what the radii of one of them leave open shifts all.
+void allow_radii(Judged& j, const convex::DataRadii& radii) {
+  const Vector way = radii.s + radii.row * j.problem.A.norm(j.q());
+  double farthest = 0;
+  if (!j.solution.multipliers.unique)
+    for (const Index a : j.solution.multipliers.tight)
+      if (j.length[a] > 0) farthest = std::max(farthest, way[a] / j.length[a]);
+  j.row += way + farthest * j.length;
+}
 
 Judged judged(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
   const Index m = problem.rows();
@@ -62,6 +73,7 @@ Judged judged(const convex::NearestPointProblem& problem, const GaussSolution& s
   for (Index a = 0; a < m; ++a)
     j.row[a] =
         j.length[a] * j.error() + roundings * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude));
+  if (problem.radii) allow_radii(j, *problem.radii);
   j.size = problem.A.norm(j.q()) + problem.A.dual_norm(problem.z);
   return j;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include "cli/commands/command_line.hpp"
@@ -76,6 +77,32 @@ std::string in_own_words(const std::string& said) {
          "\" is no number here";
 }
 
+/// A message about an output that is also what the command reads; "" when there is none.
+std::string overwritten(const CLI::App& app) {
+  const auto called = app.get_subcommands();
+  if (called.empty()) return "";
+  const auto is_output = [](const CLI::Option& option) {
+    for (const char* name : {"--output", "--plot", "--animate", "--data"})
+      if (option.check_name(name)) return true;
+    return option.get_name() == "OUT";
+  };
+  std::vector<std::pair<std::string, std::string>> outputs;
+  std::vector<std::string> inputs;
+  for (const CLI::Option* option : called.front()->get_options())
+    for (const std::string& value : option->results())
+      if (is_output(*option))
+        outputs.emplace_back(option->get_name(), value);
+      else if (option->get_positional())
+        inputs.push_back(value);
+  for (const auto& [option, output] : outputs)
+    for (const std::string& input : inputs) {
+      std::error_code none;
+      if (std::filesystem::equivalent(output, input, none))
+        return option + ": " + output + " is the file that is read, and would be lost; name another";
+    }
+  return "";
+}
+
 int answer(int argc, char** argv, const char* version) {
   CLI::App app{"moreau: convex analysis and the mechanics of one-sided constraints (J. J. Moreau 1966)",
                "moreau"};
@@ -105,6 +132,7 @@ int answer(int argc, char** argv, const char* version) {
     const std::string message = unexpected(app);
     return wrong(message.empty() ? in_own_words(error.what()) + "; " + help_on(app) : message);
   }
+  if (const std::string message = overwritten(app); !message.empty()) return wrong(message);
   try {
     return static_cast<int>(chosen());
   } catch (const std::exception& error) {

@@ -46,6 +46,12 @@ std::vector<AskedPoint> points_of_file(const std::string& file) {
     try {
       const std::string text = "[" + line + "]";
       points.push_back({parse_point(text, "z"), text, number});
+      const AskedPoint &made = points.back(), &start = points.front();
+      if (made.z.size() != start.z.size())
+        throw InvalidInput(
+            fmt::format("a point of size {}, but of size {} in line {}; give every point as many entries",
+                        made.z.size(), start.z.size(), start.line),
+            convex::Place{1, 2});
     } catch (const InvalidInput& error) {
       const int column = error.place() ? std::max(1, error.place()->column - 1) : 1;
       throw InvalidInput(error.what(), convex::Place{number, column});

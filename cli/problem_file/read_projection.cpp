@@ -49,10 +49,18 @@ ProjectionProblem read_projection(const TomlValue& table, const std::string& dir
   require_known_keys(table, "projection", {"A", "z", "U", "s", "two_sided"});
   const TomlValue *A = table.find("A"), *z = table.find("z"), *U = table.find("U"), *s = table.find("s");
   if (A == nullptr || z == nullptr)
-    throw InvalidInput("projection: A and z are needed; give both", table.place);
+    throw InvalidInput(std::string("projection: ") +
+                           (A != nullptr   ? "z is missing; give"
+                            : z != nullptr ? "A is missing; give"
+                                           : "A and z are missing; give both,") +
+                           " the n×n matrix A and the n numbers of z",
+                       table.place);
   const Vector force = read_vector(*z, "z");
   const Index n = force.size();
   convex::ConstraintRows rows = read_rows(U, directory, n);
+  if (s == nullptr && rows.count() > 0)
+    throw InvalidInput("s is missing; give one number per row of U: " + std::to_string(rows.count()),
+                       U->place);
   const Vector bound = s == nullptr ? Vector(0) : read_vector(*s, "s");
   if (bound.size() != rows.count())
     throw InvalidInput("s: " + std::to_string(bound.size()) + " entries; give " +

@@ -105,6 +105,16 @@ TomlValue* entry_of_list(TomlValue& table, const std::string& key) {
   return value;
 }
 
+/// "z[5]" of a list with fewer entries.
+void require_no_list(TomlValue& table, const std::string& key, const Setting& setting) {
+  if (key.back() != ']' || key.find('[') == std::string::npos) return;
+  const std::string name = key.substr(0, key.find('['));
+  const TomlValue* list = find(table, name);
+  if (list == nullptr || list->kind != TomlValue::Kind::array) return;
+  refuse_setting(setting, "there is no such entry; " + shown(name) + " has " +
+                              std::to_string(list->array.size()) + ", counted from 0");
+}
+
 /// What a key of one part stands for: a parameter, t, or a key of the table that the problem is.
 std::string full_key(const TomlValue& document, const Setting& setting) {
   const std::string& key = setting.key;
@@ -163,6 +173,7 @@ void apply_setting(TomlValue& document, const Setting& setting) {
   } else if (TomlValue* entry = entry_of_list(*table, path)) {
     *entry = std::move(value);
   } else {
+    require_no_list(*table, path, setting);
     table->table.push_back({path, {}, std::move(value)});
   }
 }

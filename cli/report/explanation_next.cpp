@@ -33,7 +33,7 @@ void add_event(Line& line, const Scene& scene, const mechanics::MotionEvent& eve
   } else {
     line.emplace_back(std::string("At once"));
   }
-  line.emplace_back(std::string(" ") + what_happens(event.kind) + " ");
+  line.emplace_back(std::string(" ") + what_happens(event.kind) + (event.constraints.empty() ? "" : " "));
   for (std::size_t k = 0; k < event.constraints.size(); ++k) {
     line.emplace_back(std::string(k == 0 ? "" : ", "));
     line.emplace_back(Name{scene.constraints[static_cast<std::size_t>(event.constraints[k])]});
