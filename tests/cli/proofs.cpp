@@ -171,6 +171,35 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a gradient that is 0 at a right angle is 0, though it is 6e-17 in doubles") {
+  const auto answers = [](const char* wall, const char* angle, double force) {
+    const Folder folder;
+    const std::string file = folder.write(
+        "p.toml",
+        std::string("[system]\ncoordinates = [\"a\"]\nkinetic = \"a'^2/2\"\n[system.forces]\na = ") +
+            std::to_string(force) + "\n[system.constraints]\nw = \"" + wall +
+            "\"\n[state]\nposition = { a = \"" + angle + "\" }\n");
+    return std::pair{run({"solve", "--json", file}), run({"solve", "--certify", "--json", file})};
+  };
+  // Never below 0: it asks for nothing.
+  for (const double force : {1.0, -1.0})
+    for (const auto& [wall, angle] :
+         {std::pair{"sin(a) <= 1", "pi/2"}, {"cos(a) >= -1", "pi"}, {"sin(a) >= -1", "3*pi/2"}}) {
+      CAPTURE(wall);
+      const auto [plain, certified] = answers(wall, angle, force);
+      CHECK(plain.code == 0);
+      CHECK(Json::parse(plain.out)["acceleration"]["a"] == force);
+      CHECK(certified.code == 3);
+      CHECK(Json::parse(certified.out)["certificate"]["level"] == "none");
+      CHECK(Json::parse(certified.out)["from_text"]["vanishing"] == Json::array({"w"}));
+    }
+  // 0 at most: it holds at rest alone, and second derivatives do not tell.
+  const auto [plain, certified] = answers("1 - sin(a) <= 0", "pi/2", -1);
+  CHECK(plain.code == 3);
+  CHECK(certified.code == 3);
+  CHECK(Json::parse(certified.out)["certificate"]["level"] == "none");
+}
+
 TEST_CASE("what fractions decide in a plain answer, they prove in a certified one of the same size") {
   constexpr int n = 300;  // n (n + m) beyond what is tried in fractions for a proof alone
   std::string A, z = "\"1/3\"", U = "1";

@@ -17,7 +17,7 @@ TEST_CASE("sizes that do not fit are refused with both sizes") {
       {A("{ diagonal = [1, 2, 3] }"), "2:18", {"A.diagonal", "3", "2"}},
       {two_rows({{4, "U = [[0, 1], [1]]"}}), "4:14", {"U[1]", "1", "2"}},
       {two_rows({{5, "s = [0]"}}), "5:5", {"s", "1", "2"}},
-      {two_rows({{5, ""}}), "1:1", {"s", "2"}},
+      {two_rows({{5, ""}}), "4:5", {"s", "2"}},
       {two_rows({{4, ""}}), "5:5", {"s", "2", "0"}},
       {two_rows({{6, "two_sided = [2]"}}), "6:14", {"two_sided", "2"}},
       {two_rows({{6, "two_sided = [-1]"}}), "6:14", {"two_sided", "-1"}},
