@@ -261,6 +261,14 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   const bool are_found = std::none_of(ranges.begin(), ranges.end(), [](const Interval& range) {
     return std::isnan(range.low) || std::isnan(range.high);
   });
+  // What rounding leaves of rows that hold against nothing is no freedom.
+  const double no_force = (problem.radii ? zero_where_z_is_rounded : zero_in_doubles) *
+                          std::max(solution.force_norm, solution.acceleration_norm);
+  if (want_ranges && are_found && !found.unique)
+    found.unique = std::all_of(found.tight.begin(), found.tight.end(), [&](Index a) {
+      const Interval& range = ranges[static_cast<std::size_t>(a)];
+      return range.low == range.high || (range.high - range.low) * length[a] <= no_force;
+    });
   if ((want_ranges && are_found) || found.unique) found.ranges = std::move(ranges);
   return found;
 }
