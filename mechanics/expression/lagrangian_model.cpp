@@ -37,7 +37,7 @@ bool is_finite(const SecondPartials& p) {
   if (model.tape.operation(node) == Operation::literal && std::isnan(model.tape.constant(node)))
     throw convex::InvalidInput(
         name + ": " + model.tape.text(node) +
-            " is asked for at this state; give the table a wider range, or start within it",
+            " is asked for at this state; give the table a wider range, or stay within it",
         model.sources.place(model.tape.origin(node)));
   throw convex::InvalidInput(name + ": " + quoted(written(model.tape, node, model.coordinates)) + wrong,
                              model.sources.place(model.tape.origin(node)));

@@ -28,9 +28,18 @@ Vector read_values(const LagrangianModel& model, const std::vector<NamedText>& t
   return values;
 }
 
+/// Where the value of a coordinate stands; that of its table where a family gives it.
+std::optional<convex::Place> place_of(const std::string& coordinate, const std::vector<NamedText>& texts,
+                                      const StateText& state) {
+  for (const NamedText& text : texts)
+    if (text.name.text == coordinate) return text.value.begin;
+  return state.position_table ? std::optional(state.position_table->begin) : std::nullopt;
+}
+
 /// Values that use each other, definitions and '.
-Vector values_of(const std::vector<NodeId>& nodes, const StateText& text, const std::vector<Rounded>& numbers,
-                 const std::string& table, const LagrangianModel& model, std::vector<Index>& missing) {
+Vector values_of(const std::vector<NodeId>& nodes, const StateText& text, const std::vector<NamedText>& texts,
+                 const std::vector<Rounded>& numbers, const std::string& table, const LagrangianModel& model,
+                 std::vector<Index>& missing) {
   Vector values = Vector::Zero(static_cast<Index>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto k = static_cast<Index>(i);
@@ -41,8 +50,10 @@ Vector values_of(const std::vector<NodeId>& nodes, const StateText& text, const 
     values[k] = numbers[nodes[i]].value;
     if (!std::isfinite(values[k]))
       throw convex::InvalidInput(
-          table + " of " + model.coordinates[i] + ": its value is not finite here; correct the expression",
-          text.position_table ? std::optional(text.position_table->begin) : std::nullopt);
+          table + " of " + model.coordinates[i] +
+              ": its value is not finite here (a table outside its range, a root of a negative number, a "
+              "division by 0); correct the expression",
+          place_of(model.coordinates[i], texts, text));
   }
   return values;
 }
@@ -63,8 +74,8 @@ State read_state(const LagrangianModel& model, const StateText& text) {
   if (refers) {
     const StateNodes nodes = state_nodes(model, text);
     const std::vector<Rounded> numbers = rounded_nodes(nodes.tape, state.t);
-    state.q = values_of(nodes.q, text, numbers, "position", model, missing);
-    state.v = values_of(nodes.v, text, numbers, "velocity", model, at_rest);
+    state.q = values_of(nodes.q, text, text.position, numbers, "position", model, missing);
+    state.v = values_of(nodes.v, text, text.velocity, numbers, "velocity", model, at_rest);
   } else {
     state.q = read_values(model, text.position, "position", state.t, sources, expansion, missing);
   }
