@@ -7,6 +7,7 @@
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "mechanics/dependent_rows.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 #include "mechanics/vertex.hpp"
@@ -82,10 +83,58 @@ convex::Solution nearest_point(const convex::NearestPointProblem& problem, const
   return found;
 }
 
+/// An answer without some rows, as one with all.
+convex::Solution with_all_rows(const convex::NearestPointProblem& problem, convex::Solution found,
+                               const std::vector<Index>& kept) {
+  const Vector lambda = found.lambda;
+  found.lambda = Vector::Zero(problem.rows());
+  for (std::size_t k = 0; k < kept.size(); ++k) found.lambda[kept[k]] = lambda[static_cast<Index>(k)];
+  for (Index& row : found.basis) row = kept[static_cast<std::size_t>(row)];
+  found.slack = problem.U.times(found.q) - problem.s;
+  found.residuals = convex::residuals(problem, found);
+  return found;
+}
+
+/// Rows that depend on two-sided ones within their radii count as dependent and consistent. The default
+/// method sees to that; a method that was named is asked without them, and its answer stands where it keeps
+/// them within the radii.
+convex::Solution nearest_point_of_consistent_rows(const convex::NearestPointProblem& problem,
+                                                  const GaussOptions& options, double norm) {
+  const auto with_all = [&] { return nearest_point(problem, options, norm); };
+  if (!problem.radii || options.method == &convex::methods().front()) return with_all();
+  const std::vector<DependentRow> dependent = dependent_rows(problem, RowsCompared::all);
+  if (dependent.empty()) return with_all();
+  std::vector<bool> is_left_out(static_cast<std::size_t>(problem.rows()));
+  for (const DependentRow& one : dependent) is_left_out[static_cast<std::size_t>(one.row)] = true;
+  std::vector<Index> kept, two_sided;
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (is_left_out[static_cast<std::size_t>(a)]) continue;
+    if (problem.is_two_sided(a)) two_sided.push_back(static_cast<Index>(kept.size()));
+    kept.push_back(a);
+  }
+  convex::Solution found = nearest_point({problem.A, problem.z, problem.U.select(kept), problem.s(kept),
+                                          std::move(two_sided), convex::select(problem.radii, kept)},
+                                         options, norm);
+  if (found.status != convex::Status::solved && found.status != convex::Status::inaccurate) return with_all();
+  found = with_all_rows(problem, std::move(found), kept);
+  const double size = std::sqrt(found.q.cwiseAbs2().dot(problem.A.diagonal()));
+  const auto way = [&](Index a) { return problem.radii->s[a] + problem.radii->row[a] * size; };
+  std::vector<Index> left_out;
+  for (const DependentRow& one : dependent) left_out.push_back(one.row);
+  const Vector length = convex::dual_lengths(problem, left_out);
+  for (const DependentRow& one : dependent) {
+    double allowed = way(one.row) + length[one.row] * found.error_bound;
+    for (const auto& [a, weight] : one.others) allowed += std::abs(weight) * way(a);
+    const double slack = found.slack[one.row];
+    if (!((problem.is_two_sided(one.row) ? std::abs(slack) : -slack) <= allowed)) return with_all();
+  }
+  return found;
+}
+
 GaussSolution solve_in_units(const convex::NearestPointProblem& problem, const GaussOptions& options,
                              double norm) {
   GaussSolution found;
-  found.primal = nearest_point(problem, options, norm);
+  found.primal = nearest_point_of_consistent_rows(problem, options, norm);
   if (found.primal.status == convex::Status::infeasible || found.primal.q.size() != problem.dimension())
     return found;
   if (!options.accuracy.reduce) found.reduced = reduced(problem, found.primal, options.accuracy);

@@ -9,9 +9,9 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "mechanics/data_radii.hpp"
+#include "mechanics/dependent_rows.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/settled_middle.hpp"
-#include "mechanics/singular/row_space.hpp"
 
 namespace mechanics {
 namespace {
@@ -264,23 +264,11 @@ class Proving {
     return vanishing;
   }
 
-  /// Two-sided rows that some numbers within the radii of the rows make combinations of others.
   std::vector<Index> rows_within_radii() const {
-    constexpr std::size_t most_rows = 400;
-    const std::vector<Index>& rows = problem_.two_sided;
-    if (!problem_.radii || rows.size() < 2 || rows.size() > most_rows) return {};
-    const Vector unit = problem_.A.diagonal().cwiseSqrt().cwiseInverse();
-    RowSpace space(problem_.dimension());
     std::vector<Index> found;
-    for (const Index row : rows) {
-      const Vector u = problem_.U.row(row).cwiseProduct(unit);
-      const double radius = problem_.radii->row[row];
-      const RowSpace::Expansion of_row = space.expansion(u, radius);
-      if (of_row.is_independent())
-        space.keep(u, radius, of_row);
-      else if (static_cast<std::size_t>(row) < contacts_.size())
-        found.push_back(contacts_[static_cast<std::size_t>(row)]);
-    }
+    for (const DependentRow& dependent : dependent_rows(problem_, RowsCompared::two_sided))
+      if (static_cast<std::size_t>(dependent.row) < contacts_.size())
+        found.push_back(contacts_[static_cast<std::size_t>(dependent.row)]);
     return found;
   }
 
