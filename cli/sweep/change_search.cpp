@@ -18,6 +18,14 @@ bool has(const std::vector<Index>& sorted, Index a) {
   return std::binary_search(sorted.begin(), sorted.end(), a);
 }
 
+/// The contacts that persist at one of two points alone.
+std::vector<Index> differing(const SweepPoint& one, const SweepPoint& other) {
+  std::vector<Index> found;
+  std::set_symmetric_difference(one.active.begin(), one.active.end(), other.active.begin(),
+                                other.active.end(), std::back_inserter(found));
+  return found;
+}
+
 }  // namespace
 
 std::vector<double> ChangeSearch::between(const SweepPoint& from, const SweepPoint& to) {
@@ -48,8 +56,13 @@ std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const 
   while (low.active != to.active && static_cast<int>(found.size()) < most_changes) {
     SweepPoint high = to;
     std::optional<SweepPoint> gap;  // without an answer, between the two
+    // Of several contacts that differ each is to have its own change: closer ones are told apart.
+    const auto is_narrow = [&](double width) {
+      const double apart = std::abs(high.at[0] - low.at[0]);
+      return apart <= width && (apart <= change_part / 4 * range_ || differing(low, high).size() <= 1);
+    };
     const auto halve = [&](double width) {
-      for (int k = 0; k < most_bisections && std::abs(high.at[0] - low.at[0]) > width; ++k) {
+      for (int k = 0; k < most_bisections && !is_narrow(width); ++k) {
         const double middle = low.at[0] + (high.at[0] - low.at[0]) / 2;
         if (middle == low.at[0] || middle == high.at[0]) return true;
         SweepPoint point = scene_.solve({middle}, watched_);
@@ -92,9 +105,6 @@ std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const 
 /// a slack grows slowly, that is far from where it begins.
 std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoint& to, double width,
                                          Reach all) {
-  std::vector<Index> differing;
-  std::set_symmetric_difference(from.active.begin(), from.active.end(), to.active.begin(), to.active.end(),
-                                std::back_inserter(differing));
   using Margins = SweepScene::Margins;
   const auto number = [&](std::vector<double> Margins::*which, const std::vector<Index>& held, Index c) {
     return [this, which, held, c](double p) {
@@ -107,7 +117,7 @@ std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoin
   };
   const double a = from.at[0], b = to.at[0];
   const Reach near{std::min(a, b) - width, std::max(a, b) + width};
-  for (const Index c : differing) {
+  for (const Index c : differing(from, to)) {
     const bool was = has(from.active, c);
     const SweepPoint &with = was ? from : to, &without = was ? to : from;
     if (!has(without.contacts, c)) {  // it left K
@@ -125,11 +135,24 @@ std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoin
   return std::nullopt;
 }
 
+/// Where a function that is 0 on one side begins to differ from 0: from its tangent on the other, at `x` and
+/// beyond, where it is straight. `step`: away from the zeros.
+std::optional<double> ChangeSearch::end_of_zeros(double x, double step,
+                                                 const std::function<double(double)>& of, Reach reach) const {
+  constexpr double straight = 1e-4;  // of the root's distance, which is about a step
+  const double f0 = of(x), f1 = of(x + step), f2 = of(x + 2 * step), rise = f1 - f0;
+  if (!(std::abs(f2 - f1 - rise) <= straight * std::abs(rise)) || rise == 0) return std::nullopt;
+  const double root = x - f0 * step / rise;
+  return root >= reach.begin && root <= reach.end ? std::optional(root) : std::nullopt;
+}
+
 /// None where the steps leave the reach or do not end.
 std::optional<double> ChangeSearch::secant(double a, double b, Reach reach,
                                            const std::function<double(double)>& of) const {
   double fa = of(a), fb = of(b);
   if (fa == 0 && fb == 0) return std::nullopt;
+  if (fa == 0 || fb == 0)
+    return fa == 0 ? end_of_zeros(b, b - a, of, reach) : end_of_zeros(a, a - b, of, reach);
   for (int k = 0; k < most_secants; ++k) {
     if (fb == 0) return b;
     if (fa == 0) return a;
@@ -140,7 +163,7 @@ std::optional<double> ChangeSearch::secant(double a, double b, Reach reach,
     fa = fb;
     b = next;
     fb = of(b);
-    if (std::isfinite(fb) && fb == fa) return std::nullopt;
+    if (std::isfinite(fb) && fb == fa) break;
   }
   // Steps that are all rounding by now: as good as it gets.
   return std::abs(b - a) <= change_part / 4 * range_ ? std::optional(b) : std::nullopt;

@@ -26,6 +26,8 @@ class ChangeSearch {
     double begin, end;
   };
   std::optional<double> root(const SweepPoint& from, const SweepPoint& to, double width, Reach all);
+  std::optional<double> end_of_zeros(double x, double step, const std::function<double(double)>& of,
+                                     Reach) const;
   std::optional<double> secant(double a, double b, Reach, const std::function<double(double)>& of) const;
 
   SweepScene& scene_;

@@ -125,22 +125,6 @@ TEST_CASE("a sweep finds the changes between a point with an answer and one with
   }
 }
 
-TEST_CASE("a sweep finds where a slack begins that the tolerance hides, also beside opposite contacts") {
-  // The wedge between d and e pins x - y; c opens as 1e-4 (P - 1/3), within the tolerance for 2e-5 of P.
-  const Folder folder;
-  const std::string file = folder.write(
-      "a.toml",
-      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n[system.parameters]\nP = 0.0\n"
-      "[system.forces]\nx = \"1 + 1e-4*(P - 1/3)\"\ny = \"-1\"\n[system.constraints]\nc = \"x + y >= 0\"\n"
-      "d = \"x - y >= t^2\"\ne = \"x - y <= t^2\"\n[state]\nposition = { x = 0, y = 0 }\n");
-  for (const char* over : {"P=0:0.5:1", "P=1:-0.4:-0.2"}) {
-    CAPTURE(over);
-    const Json swept = Json::parse(run({"sweep", "--json", file, "--over", over}).out);
-    REQUIRE(swept.at("changes").size() == 1);
-    CHECK(std::abs(swept.at("changes")[0].at("value").get<double>() - 1.0 / 3) <= 2e-12);
-  }
-}
-
 TEST_CASE("a sweep that was cut off goes on to the same table") {
   const Folder folder;
   const std::string file = folder.write("a.toml", pulled_block), whole = folder.path("whole.csv");

@@ -1,0 +1,75 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+
+namespace {
+
+std::vector<double> changes(const std::string& file, const char* over) {
+  std::vector<double> found;
+  const Json swept = Json::parse(run({"sweep", "--json", file, "--over", over}).out);
+  for (const auto& change : swept.at("changes")) found.push_back(change.at("value"));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Unit masses above a floor each, with forces and heights.
+std::string masses(const std::string& forces, const std::string& heights) {
+  return "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n[system.parameters]\nP = "
+         "0.0\n"
+         "[system.forces]\n" +
+         forces +
+         "[system.constraints]\na = \"x >= 0\"\nb = \"y >= 0\"\n[state]\n"
+         "position = { " +
+         heights + " }\n";
+}
+
+}  // namespace
+
+TEST_CASE("a sweep finds where a slack begins that the tolerance hides, also beside opposite contacts") {
+  // The wedge between d and e pins x - y; c opens as 1e-4 (P - 1/3), within the tolerance for 2e-5 of P.
+  const Folder folder;
+  const std::string file = folder.write(
+      "a.toml",
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n[system.parameters]\nP = 0.0\n"
+      "[system.forces]\nx = \"1 + 1e-4*(P - 1/3)\"\ny = \"-1\"\n[system.constraints]\nc = \"x + y >= 0\"\n"
+      "d = \"x - y >= t^2\"\ne = \"x - y <= t^2\"\n[state]\nposition = { x = 0, y = 0 }\n");
+  for (const char* over : {"P=0:0.5:1", "P=1:-0.4:-0.2"}) {
+    CAPTURE(over);
+    const Json swept = Json::parse(run({"sweep", "--json", file, "--over", over}).out);
+    REQUIRE(swept.at("changes").size() == 1);
+    CHECK(std::abs(swept.at("changes")[0].at("value").get<double>() - 1.0 / 3) <= 2e-12);
+  }
+}
+
+TEST_CASE("a sweep finds where a contact leaves that was at exactly 0 until then") {
+  const Folder folder;
+  const std::string file = folder.write(
+      "a.toml", masses("x = -1\ny = \"P - 3/10\"\n", "x = \"max(P - 1/3, 0)*max(2/3 - P, 0)\", y = 0"));
+  for (const char* over : {"P=-1:0.25:1", "P=0:0.1:1", "P=1:-0.3:-0.5"}) {
+    CAPTURE(over);
+    const std::vector<double> found = changes(file, over);
+    REQUIRE(found.size() == 3);
+    CHECK(std::abs(found[0] - 0.3) <= 2e-12);
+    CHECK(std::abs(found[1] - 1.0 / 3) <= 2e-12);
+    CHECK(std::abs(found[2] - 2.0 / 3) <= 2e-12);
+  }
+}
+
+TEST_CASE("a sweep tells two changes apart that are a hundred-millionth of the range from each other") {
+  const Folder folder;
+  for (const double apart : {1e-3, 1e-7, 1e-8, 1e-10}) {
+    CAPTURE(apart);
+    const std::string file = folder.write(
+        "a.toml", masses("x = \"P - 0.3\"\ny = \"0.3 + " + std::to_string(1e12 * apart) + "*1e-12 - P\"\n",
+                         "x = 0, y = 0"));
+    const std::vector<double> found = changes(file, "P=0:0.25:1");
+    REQUIRE(found.size() == 2);
+    CHECK(std::abs(found[0] - 0.3) <= 2e-12);
+    CHECK(std::abs(found[1] - 0.3 - apart) <= 2e-12);
+  }
+}
