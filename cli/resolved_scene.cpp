@@ -6,6 +6,7 @@
 #include "cli/report/solve_report.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/cancelling_gradients.hpp"
 #include "mechanics/proof_as_written.hpp"
@@ -176,10 +177,35 @@ std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
   return warning;
 }
 
+namespace {
+
+/// Whether the error of the answer leaves open what becomes of a one-sided contact: that it opens, or
+/// presses.
+bool leaves_contacts_open(const Scene& scene, const mechanics::GaussSolution& solution) {
+  const convex::Solution& answer = solution.primal;
+  std::vector<convex::Index> rows;
+  for (convex::Index a = 0; a < scene.problem.rows(); ++a)
+    if (!scene.problem.is_two_sided(a) &&
+        !std::binary_search(solution.touching.begin(), solution.touching.end(), a))
+      rows.push_back(a);
+  const convex::Vector length = convex::dual_lengths(scene.problem, rows);
+  const convex::Vector& lambda = solution.multipliers.least_norm;
+  return std::any_of(rows.begin(), rows.end(), [&](convex::Index a) {
+    const bool is_tight =
+        std::binary_search(solution.multipliers.tight.begin(), solution.multipliers.tight.end(), a);
+    return is_tight ? solution.multipliers.unique && lambda[a] * length[a] <= answer.error_bound
+                    : answer.slack[a] <= length[a] * answer.error_bound;
+  });
+}
+
+}  // namespace
+
 std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::GaussSolution& solution) {
   const bool was_solved = solution.primal.status == convex::Status::solved;
   const std::optional<double> as_evaluated = count_evaluation_error(scene, solution);
-  if (!was_solved || solution.primal.status == convex::Status::solved) return as_evaluated;
+  if (!was_solved ||
+      (solution.primal.status == convex::Status::solved && !leaves_contacts_open(scene, solution)))
+    return as_evaluated;
   if (!is_default(scene.solve) || !scene.added.empty()) return as_evaluated;
   const bool is_decided =
       is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "mechanics/exact_text.hpp"
 #include "mechanics/written_mechanism.hpp"
@@ -121,12 +122,27 @@ void settle_vanishing_rows(const WrittenMechanism& written, const std::vector<In
 
 }  // namespace
 
+namespace {
+
+/// Whether A or z is not what the text says.
+bool is_motion_rounded(const WrittenMechanism& written) {
+  const convex::EntryRadii radii = data_radii(*written.system, written.state, written.radii, {});
+  const auto values = std::span(radii.A.valuePtr(), static_cast<std::size_t>(radii.A.nonZeros()));
+  return !radii.z.isZero(0) || std::any_of(values.begin(), values.end(), [](double r) { return r != 0; });
+}
+
+}  // namespace
+
 GaussProblem gauss_problem(const WrittenMechanism& written, const Vector& contact_tolerance) {
   GaussProblem found = as_evaluated(*written.system, written.state, contact_tolerance);
   convex::NearestPointProblem& problem = found.problem;
   convex::DataRadii radii =
       row_radii(*written.system, written.state, written.radii, found.contacts.present, problem.A.diagonal());
-  if (radii.is_zero()) return found;
+  // Rows without radii say that z is rounded, unless nothing is.
+  if (radii.is_zero()) {
+    if (is_motion_rounded(written)) problem.radii = std::move(radii);
+    return found;
+  }
   if (!radii.row.allFinite() || !radii.s.allFinite()) {
     const convex::DataRadii guess = convex::rounding_radii(problem, roundings_of_data);
     for (Index a = 0; a < problem.rows(); ++a) {

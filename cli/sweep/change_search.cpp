@@ -12,6 +12,8 @@ using convex::Index;
 constexpr double bracket_part = 1e-7;
 /// A slack within so many times what is 0 by the tolerance, where a contact opens, may have grown before.
 constexpr double tight_tolerances = 4;
+/// Roots closer than this part of the range are of one change.
+constexpr double together_part = 2e-11;
 constexpr int most_bisections = 200, most_secants = 60, most_changes = 1000;
 
 bool has(const std::vector<Index>& sorted, Index a) {
@@ -56,13 +58,8 @@ std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const 
   while (low.active != to.active && static_cast<int>(found.size()) < most_changes) {
     SweepPoint high = to;
     std::optional<SweepPoint> gap;  // without an answer, between the two
-    // Of several contacts that differ each is to have its own change: closer ones are told apart.
-    const auto is_narrow = [&](double width) {
-      const double apart = std::abs(high.at[0] - low.at[0]);
-      return apart <= width && (apart <= change_part / 4 * range_ || differing(low, high).size() <= 1);
-    };
     const auto halve = [&](double width) {
-      for (int k = 0; k < most_bisections && !is_narrow(width); ++k) {
+      for (int k = 0; k < most_bisections && std::abs(high.at[0] - low.at[0]) > width; ++k) {
         const double middle = low.at[0] + (high.at[0] - low.at[0]) / 2;
         if (middle == low.at[0] || middle == high.at[0]) return true;
         SweepPoint point = scene_.solve({middle}, watched_);
@@ -84,8 +81,10 @@ std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const 
       continue;
     }
     const double width = std::max(std::abs(high.at[0] - low.at[0]), bracket_part * range_);
-    std::optional<double> change =
-        root(low, high, 100 * width, {std::min(last, to.at[0]), std::max(last, to.at[0])});
+    const Reach all{std::min(last, to.at[0]), std::max(last, to.at[0])};
+    part(low, high, 100 * width, all);
+    const std::vector<double> changes = roots(low, high, 100 * width, all);
+    std::optional<double> change = changes.empty() ? std::nullopt : std::optional(changes.front());
     if (!change) {
       if (!halve(change_part / 4 * range_)) {
         over_gap();
@@ -100,13 +99,42 @@ std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const 
   return found;
 }
 
-/// The root of what decides about the first contact that differs and has one, within `width` of the two
-/// points; within `all` where the contact is told to persist because its slack is within the tolerance: where
-/// a slack grows slowly, that is far from where it begins.
-std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoint& to, double width,
-                                         Reach all) {
+/// Where several contacts differ, parts what lies between at the widest gap of their roots, until those that
+/// are left change together.
+void ChangeSearch::part(SweepPoint& low, SweepPoint& high, double width, Reach all) {
+  constexpr int most_parts = 20;
+  for (int k = 0; k < most_parts && differing(low, high).size() > 1; ++k) {
+    std::vector<double> found = roots(low, high, width, all);
+    std::sort(found.begin(), found.end());
+    double widest = together_part * range_, middle = 0;
+    for (std::size_t r = 1; r < found.size(); ++r)
+      if (found[r] - found[r - 1] > widest) {
+        widest = found[r] - found[r - 1];
+        middle = found[r - 1] + widest / 2;
+      }
+    if (!(widest > together_part * range_)) return;
+    SweepPoint point = scene_.solve({middle}, watched_);
+    if (!point.has_answer()) return;
+    (point.active == low.active ? low : high) = std::move(point);
+  }
+}
+
+/// The roots of what decides about the contacts that differ, where they have one.
+std::vector<double> ChangeSearch::roots(const SweepPoint& from, const SweepPoint& to, double width,
+                                        Reach all) {
+  std::vector<double> found;
+  for (const Index c : differing(from, to))
+    if (const auto root = root_of(c, from, to, width, all)) found.push_back(*root);
+  return found;
+}
+
+/// The root of what decides about a contact, within `width` of the two points; within `all` where the contact
+/// is told to persist because its slack is within the tolerance: where a slack grows slowly, that is far from
+/// where it begins.
+std::optional<double> ChangeSearch::root_of(Index c, const SweepPoint& from, const SweepPoint& to,
+                                            double width, Reach all) {
   using Margins = SweepScene::Margins;
-  const auto number = [&](std::vector<double> Margins::*which, const std::vector<Index>& held, Index c) {
+  const auto number = [&](std::vector<double> Margins::*which, const std::vector<Index>& held) {
     return [this, which, held, c](double p) {
       try {
         return (scene_.margins({p}, held).*which)[static_cast<std::size_t>(c)];
@@ -115,23 +143,27 @@ std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoin
       }
     };
   };
-  const double a = from.at[0], b = to.at[0];
+  // Closer to each other they would differ by rounding alone.
+  const double way = to.at[0] - from.at[0], least = bracket_part * range_,
+               spread = std::abs(way) < least / 2 ? std::copysign(least, way) / 2 : 0;
+  const double a = from.at[0] - spread, b = to.at[0] + spread;
   const Reach near{std::min(a, b) - width, std::max(a, b) + width};
-  for (const Index c : differing(from, to)) {
-    const bool was = has(from.active, c);
-    const SweepPoint &with = was ? from : to, &without = was ? to : from;
-    if (!has(without.contacts, c)) {  // it left K
-      for (const auto which : {&Margins::f, &Margins::df})
-        if (const auto found = secant(b, a, near, number(which, without.active, c))) return found;
-      continue;
-    }
-    const double slack = number(&Margins::slack, without.active, c)(without.at[0]),
-                 zero = number(&Margins::zero_slack, without.active, c)(without.at[0]);
-    const bool is_hidden = std::abs(slack) <= tight_tolerances * zero;
-    const Reach reach = is_hidden ? all : near;
-    if (const auto found = secant(a, b, reach, number(&Margins::multiplier, with.active, c))) return found;
-    if (const auto found = secant(a, b, reach, number(&Margins::slack, without.active, c))) return found;
+  const bool was = has(from.active, c);
+  const SweepPoint &with = was ? from : to, &without = was ? to : from;
+  if (!has(without.contacts, c)) {  // it left K
+    for (const auto which : {&Margins::f, &Margins::df})
+      if (const auto found = secant(b, a, near, number(which, without.active))) return found;
+    return std::nullopt;
   }
+  const auto multiplier = number(&Margins::multiplier, with.active),
+             slack = number(&Margins::slack, without.active),
+             zero = number(&Margins::zero_slack, without.active);
+  const auto is_hidden = [&](double p) { return std::abs(slack(p)) <= tight_tolerances * zero(p); };
+  for (const auto& margin : {multiplier, slack})
+    if (const auto found = secant(a, b, near, margin)) return found;
+  if (!is_hidden(without.at[0])) return std::nullopt;
+  for (const auto& margin : {multiplier, slack})
+    if (const auto found = secant(a, b, all, margin); found && is_hidden(*found)) return found;
   return std::nullopt;
 }
 

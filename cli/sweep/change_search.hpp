@@ -25,7 +25,10 @@ class ChangeSearch {
   struct Reach {
     double begin, end;
   };
-  std::optional<double> root(const SweepPoint& from, const SweepPoint& to, double width, Reach all);
+  void part(SweepPoint& low, SweepPoint& high, double width, Reach all);
+  std::vector<double> roots(const SweepPoint& from, const SweepPoint& to, double width, Reach all);
+  std::optional<double> root_of(convex::Index c, const SweepPoint& from, const SweepPoint& to, double width,
+                                Reach all);
   std::optional<double> end_of_zeros(double x, double step, const std::function<double(double)>& of,
                                      Reach) const;
   std::optional<double> secant(double a, double b, Reach, const std::function<double(double)>& of) const;

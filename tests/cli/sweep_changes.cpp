@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
 
-using namespace tests;
+using Json = nlohmann::json;
+using tests::Folder;
+using tests::run;
 
 namespace {
 
@@ -72,4 +75,21 @@ TEST_CASE("a sweep tells two changes apart that are a hundred-millionth of the r
     CHECK(std::abs(found[0] - 0.3) <= 2e-12);
     CHECK(std::abs(found[1] - 0.3 - apart) <= 2e-12);
   }
+}
+
+TEST_CASE("a sweep finds where one contact takes over from another, not where the other would let go") {
+  // 2 x'' >= s(P) from where s(P)/2 = 2.6/3: of 1.4 P^3 - 2.8 P + 17/30 = 0 the root below -1.
+  const Folder folder;
+  const std::string file =
+      folder.write("a.toml",
+                   "[system]\ncoordinates = [\"x\"]\nkinetic = \"5/2*x'^2\"\n[system.parameters]\nP = "
+                   "0.0\n[system.forces]\n"
+                   "x = \"0.9 - 0.9*P\"\n[system.constraints]\na = \"2*x >= (2.3 - 2.8*P + 1.4*P^3)*t^2/2\"\n"
+                   "b = \"3*x >= 1.3*t^2\"\n[state]\nposition = { x = 0 }\n");
+  double root = -1.5;
+  for (int k = 0; k < 50; ++k)
+    root -= (1.4 * root * root * root - 2.8 * root + 17.0 / 30) / (4.2 * root * root - 2.8);
+  const std::vector<double> found = changes(file, "P=-2:0.3:-1");
+  REQUIRE(found.size() == 1);
+  CHECK(std::abs(found[0] - root) <= 2e-12);
 }

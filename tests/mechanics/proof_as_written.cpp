@@ -290,16 +290,22 @@ TEST_CASE("a rod written twice with two lengths in time contradicts itself as wr
   }
 }
 
-TEST_CASE("rows carry the radii of their evaluation, and none where they are exact") {
-  const auto radii = [](const std::string& floor, const std::string& x) {
-    return asked({{"x", "y"}, "(x'^2 + y'^2)/2", "9.81*y", {}, {}, {}, {{"floor", floor}}},
+TEST_CASE(
+    "rows carry the radii of their evaluation, 0 where they are exact, and none where forces are, too") {
+  const auto radii = [](const std::string& floor, const std::string& x, const std::string& potential) {
+    return asked({{"x", "y"}, "(x'^2 + y'^2)/2", potential, {}, {}, {}, {{"floor", floor}}},
                  tests::state_text({{"x", x}, {"y", "0"}}))
         .gauss.problem.radii;
   };
-  CHECK_FALSE(radii("y >= x", "0"));
-  CHECK_FALSE(radii("y >= 0.5*x", "0"));
-  CHECK_FALSE(radii("y >= x*(x - 0.25)", "0.25"));
-  const auto rounded = radii("y >= 0.1*x", "0");
+  for (const auto& [floor, x] :
+       {std::pair{"y >= x", "0"}, {"y >= 0.5*x", "0"}, {"y >= x*(x - 0.25)", "0.25"}}) {
+    CAPTURE(std::string(floor));
+    CHECK_FALSE(radii(floor, x, "9.75*y"));
+    const auto of_rounded_force = radii(floor, x, "9.81*y");
+    REQUIRE(of_rounded_force);
+    CHECK(of_rounded_force->is_zero());
+  }
+  const auto rounded = radii("y >= 0.1*x", "0", "9.81*y");
   REQUIRE(rounded);
   // 0.1 is off by 5.551115123125783e-18.
   CHECK(rounded->row[0] >= 5.551115123125783e-18);

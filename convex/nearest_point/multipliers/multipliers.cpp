@@ -93,11 +93,26 @@ double length_beside_held_rows(const NearestPointProblem& problem, const Solutio
 
 }  // namespace
 
+namespace {
+
+/// How far, in the metric, the radii of the rows held may move the point, where these are far from dependent.
+double moved_by_radii(const NearestPointProblem& problem, const Solution& solution) {
+  if (!problem.radii || problem.radii->is_zero()) return 0;
+  const Vector length = dual_lengths(problem, solution.basis);
+  double moved = 0;
+  for (const Index a : solution.basis)
+    if (length[a] > 0)
+      moved += (problem.radii->s[a] + problem.radii->row[a] * solution.acceleration_norm) / length[a];
+  return moved;
+}
+
+}  // namespace
+
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
                               double tolerance) {
   const double size = solution.acceleration_norm;
   // An entry of q that is large makes a slack open only where the row has it.
-  const double moved = std::min(tolerance * size, solution.error_bound);
+  const double moved = std::min(tolerance * size, solution.error_bound) + moved_by_radii(problem, solution);
   // Where z is rounded, its rounding moves slacks; its size moves none.
   const double pushed =
       problem.radii ? std::min(tolerance, zero_where_z_is_rounded) * solution.force_norm : 0;

@@ -1,9 +1,15 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "convex/nearest_point/methods.hpp"
 #include "tests/cli/program.hpp"
 
-using namespace tests;
+using Json = nlohmann::json;
+using tests::Folder;
+using tests::Outcome;
+using tests::run;
 
 TEST_CASE("every method takes rows that say the same, but for rounding, as dependent and consistent") {
   // Rods at irrational angles, each written twice: of two multipliers of one rod neither is known.
@@ -43,5 +49,21 @@ TEST_CASE("every method takes rows that say the same, but for rounding, as depen
         for (const std::size_t side : {0, 1})
           CHECK(answer["multiplier_ranges"][name][side].is_number() == range[side].is_number());
     }
+  }
+}
+
+TEST_CASE("forces that balance as written, though not in doubles, neither open a contact nor press on it") {
+  const Folder folder;
+  for (const char* force : {"8/5*p - 12/5", "12/5 - 8/5*p", "0.1 + 0.2*p - 0.4"}) {
+    CAPTURE(force);
+    const std::string file = folder.write(
+        "balance.toml",
+        std::string("[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n[system.parameters]\np = 1.5\n"
+                    "[system.forces]\nx = \"") +
+            force + "\"\n[system.constraints]\nwall = \"x >= 0\"\n[state]\nposition = { x = 0 }\n");
+    const Json answer = Json::parse(run({"solve", "--json", file}).out);
+    CHECK(answer["status"] == "solved");
+    CHECK(answer["acceleration"]["x"] == 0);
+    CHECK(answer["constraints"]["wall"]["state"] == "touches");
   }
 }
