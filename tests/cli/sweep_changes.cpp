@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.hpp"
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using tests::Folder;
 using tests::run;
 

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/methods.hpp"
 #include "tests/cli/program.hpp"
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using tests::Folder;
 using tests::Outcome;
 using tests::run;
