@@ -120,33 +120,78 @@ RoundedVector rounded_vector(const std::vector<Rounded>& numbers) {
   return made;
 }
 
+/// The same state as doubles see it: on the branches that their signs choose.
+RoundedState without_known(RoundedState state) {
+  state.known.clear();
+  return state;
+}
+
+Values values_of(const ValuesOf<Rounded>& numbers) {
+  Values values(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) values[i] = numbers[i].value;
+  return values;
+}
+
 void add_motion(const LagrangianModel& model, const RoundedState& state,
                 const std::vector<Rounded>& constants, convex::EntryRadii& found) {
   const Motion run = run_motion(model, state, constants);
   found.A = model.hessian.matrix_radii(model.motion, run.x, run.adjoint);
   for (double& radius : std::span(found.A.valuePtr(), static_cast<std::size_t>(found.A.nonZeros())))
     radius = known(radius);
-  found.z = radii_of(imbalance(model, state, run, {}));
+  const RoundedVector z = rounded_vector(imbalance(model, state, run, {}));
+  found.z = z.radius;
+  if (state.known.empty()) return;
+  const RoundedState seen = without_known(state);
+  const Motion as_seen = run_motion(model, seen, constants);
+  const auto inertia = [&](const Motion& of) {
+    return model.hessian.matrix(model.motion, values_of(of.x), values_of(of.adjoint));
+  };
+  found.A += convex::SparseMatrix((inertia(run) - inertia(as_seen)).cwiseAbs());
+  found.z += (z.value - rounded_vector(imbalance(model, seen, as_seen, {})).value).cwiseAbs();
+}
+
+/// U and s with what is known of them.
+struct RowNumbers {
+  convex::SparseRows U, U_radius;
+  RoundedVector s;
+};
+
+RowNumbers row_numbers(const LagrangianModel& model, const RoundedState& state,
+                       const std::vector<Rounded>& constants, const std::vector<Index>& contacts) {
+  const Program& program = model.contacts;
+  const ValuesOf<Rounded> x = program.rounded_values(state, 0, constants);
+  const auto m = static_cast<Index>(contacts.size()), n = static_cast<Index>(state.q.size());
+  GradientsOf<Rounded> gradients(program);
+  std::vector<Eigen::Triplet<double>> values, radii;
+  const Vector rest = Vector::Zero(n);
+  const ValuesOf<Rounded> second = rates<Rounded>(program, x, state.v, &rest).second;
+  RowNumbers found{{}, {}, {Vector(m), Vector(m)}};
+  for (Index k = 0; k < m; ++k) {
+    const Slot root = program.roots(0)[static_cast<std::size_t>(contacts[static_cast<std::size_t>(k)])];
+    for (const auto& [i, u] : gradients.of(root, x).by_q) {
+      values.emplace_back(k, i, u.value);
+      radii.emplace_back(k, i, known(u.radius));
+    }
+    found.s.value[k] = second[root].value;
+    found.s.radius[k] = known(second[root].radius);
+  }
+  found.U.resize(m, n);
+  found.U.setFromTriplets(values.begin(), values.end());
+  found.U_radius.resize(m, n);
+  found.U_radius.setFromTriplets(radii.begin(), radii.end());
+  return found;
 }
 
 void add_contacts(const LagrangianModel& model, const RoundedState& state,
                   const std::vector<Rounded>& constants, const std::vector<Index>& contacts,
                   convex::EntryRadii& found) {
-  const Program& program = model.contacts;
-  const ValuesOf<Rounded> x = program.rounded_values(state, 0, constants);
-  const auto m = static_cast<Index>(contacts.size());
-  GradientsOf<Rounded> gradients(program);
-  std::vector<Eigen::Triplet<double>> entries;
-  const Vector rest = Vector::Zero(static_cast<Index>(state.q.size()));
-  const ValuesOf<Rounded> second = rates<Rounded>(program, x, state.v, &rest).second;
-  found.s.resize(m);
-  for (Index k = 0; k < m; ++k) {
-    const Slot root = program.roots(0)[static_cast<std::size_t>(contacts[static_cast<std::size_t>(k)])];
-    for (const auto& [i, u] : gradients.of(root, x).by_q) entries.emplace_back(k, i, known(u.radius));
-    found.s[k] = known(second[root].radius);
-  }
-  found.U.resize(m, static_cast<Index>(state.q.size()));
-  found.U.setFromTriplets(entries.begin(), entries.end());
+  RowNumbers rows = row_numbers(model, state, constants, contacts);
+  found.U = std::move(rows.U_radius);
+  found.s = std::move(rows.s.radius);
+  if (state.known.empty()) return;
+  const RowNumbers as_seen = row_numbers(model, without_known(state), constants, contacts);
+  found.U += convex::SparseRows((rows.U - as_seen.U).cwiseAbs());
+  found.s += (rows.s.value - as_seen.s.value).cwiseAbs();
 }
 
 }  // namespace
@@ -215,16 +260,29 @@ convex::DataRadii row_radii(const LagrangianSystem& system, const State& state, 
 
 RateRadii rate_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii) {
   const Program& program = system.model().contacts;
-  const RoundedState rounded = rounded_state(state, radii);
-  const ValuesOf<Rounded> x = program.rounded_values(rounded, 0, rounded_nodes(system.model().tape));
-  const ValuesOf<Rounded> rate = rates<Rounded>(program, x, rounded.v, nullptr).first;
+  const std::vector<Rounded> constants = rounded_nodes(system.model().tape);
   const auto& roots = program.roots(0);
   const auto m = static_cast<Index>(roots.size());
-  RateRadii found{Vector(m), Vector(m)};
-  for (Index a = 0; a < m; ++a) {
-    found.f[a] = known(x[roots[static_cast<std::size_t>(a)]].radius);
-    found.df[a] = known(rate[roots[static_cast<std::size_t>(a)]].radius);
-  }
+  const auto numbers = [&](const RoundedState& at) {
+    const ValuesOf<Rounded> x = program.rounded_values(at, 0, constants);
+    const ValuesOf<Rounded> rate = rates<Rounded>(program, x, at.v, nullptr).first;
+    std::pair<RoundedVector, RoundedVector> found{{Vector(m), Vector(m)}, {Vector(m), Vector(m)}};
+    for (Index a = 0; a < m; ++a) {
+      const Slot root = roots[static_cast<std::size_t>(a)];
+      found.first.value[a] = x[root].value;
+      found.first.radius[a] = known(x[root].radius);
+      found.second.value[a] = rate[root].value;
+      found.second.radius[a] = known(rate[root].radius);
+    }
+    return found;
+  };
+  const RoundedState rounded = rounded_state(state, radii);
+  const auto [f, df] = numbers(rounded);
+  RateRadii found{f.radius, df.radius};
+  if (rounded.known.empty()) return found;
+  const auto [f_seen, df_seen] = numbers(without_known(rounded));
+  found.f += (f.value - f_seen.value).cwiseAbs();
+  found.df += (df.value - df_seen.value).cwiseAbs();
   return found;
 }
 

@@ -147,7 +147,10 @@ void take_what_is_known(const std::vector<KnownNode>& known, NodeId node, Rounde
   const auto at = std::lower_bound(known.begin(), known.end(), node,
                                    [](const KnownNode& k, NodeId wanted) { return k.node < wanted; });
   if (at == known.end() || at->node != node) return;
-  x.radius = std::min(x.radius, widened(std::abs(x.value - at->number.value) + at->number.radius));
+  if (!at->number.is_undecided())
+    x = at->number;
+  else
+    x.radius = std::min(x.radius, widened(std::abs(x.value - at->number.value) + at->number.radius));
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ struct KnownNode {
 struct RoundedState {
   Rounded t;
   std::vector<Rounded> q, v;
+  /// Those whose sign is told are taken as they are, not as they are evaluated: then values are those of the
+  /// branches as written, and others than doubles have.
   std::vector<KnownNode> known = {};
 };
 

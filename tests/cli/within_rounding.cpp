@@ -67,3 +67,24 @@ TEST_CASE("forces that balance as written, though not in doubles, neither open a
     CHECK(answer["constraints"]["wall"]["state"] == "touches");
   }
 }
+
+TEST_CASE("at a knot of a table that its argument meets as written, though not in doubles, nothing is open") {
+  // sin(pi/6) is 1/2, and less in doubles; the spline of the table passes through (1/2, 3/2) smoothly.
+  const Folder folder;
+  const auto answer = [&](const std::string& force) {
+    return Json::parse(
+        run({"solve", "--json",
+             folder.write("a.toml",
+                          "[system]\ncoordinates = [\"a\", \"x\"]\nkinetic = \"(a'^2 + x'^2)/2\"\n"
+                          "[system.forces]\nx = \"" +
+                              force + "\"\n[state]\nposition = { a = \"pi/6\", x = 0 }\n")})
+            .out);
+  };
+  const Json smooth = answer("table(sin(a), [-2, 0.5, 1, 3], [2, 1.5, -1, 3])");
+  CHECK(smooth["status"] == "solved");
+  CHECK(std::abs(smooth["acceleration"]["x"].get<double>() - 1.5) <= 1e-15);
+  CHECK(smooth["certificate"]["error_bound"].get<double>() <= 1e-14);
+  // Where the branches differ, the one of the doubles is not told to be the answer.
+  const Json jump = answer("if(sin(a) >= 0.5, 10, -10)");
+  CHECK((jump["acceleration"]["x"] == 10 || jump["status"] == "inaccurate"));
+}
