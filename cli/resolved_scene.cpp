@@ -9,6 +9,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/cancelling_gradients.hpp"
+#include "mechanics/exact_text.hpp"
 #include "mechanics/proof_as_written.hpp"
 #include "mechanics/rounded_data.hpp"
 #include "mechanics/singular/resolution.hpp"
@@ -180,8 +181,9 @@ std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
 namespace {
 
 /// Whether the error of the answer leaves open what becomes of a one-sided contact: that it opens, or
-/// presses.
+/// presses. It is not asked where a text has too many coordinates to decide.
 bool leaves_contacts_open(const Scene& scene, const mechanics::GaussSolution& solution) {
+  if (scene.problem.dimension() > static_cast<convex::Index>(mechanics::most_exact_coordinates)) return false;
   const convex::Solution& answer = solution.primal;
   std::vector<convex::Index> rows;
   for (convex::Index a = 0; a < scene.problem.rows(); ++a)
