@@ -198,10 +198,9 @@ class GridNorm {
     multigrid_.set_free(all_points(A));
   }
 
-  /// To the square of `close`, as a scale needs it: with Au near c and r = c - Au, the square is u·c + u·r +
-  /// ||r||².
+  /// To the square of `close`: with Au near c and r = c - Au, the square is u·c + u·r + ||r||².
   double dual(const Vector& c) {
-    constexpr double close = 1e-2;
+    constexpr double close = 1e-4;
     Vector u, r = A_.field();
     const double missing = multigrid_.solve(c, close, u).missing;
     for (Index j = 0; j < A_.height; ++j) {
