@@ -11,6 +11,9 @@
 
 namespace convex::inline multiplier_sets {
 
+/// Word operations of a product and a sum in lowest terms, of numbers of a word.
+inline constexpr double words_of_fraction = 500;
+
 /// [low, high]; none is infinite.
 template <class Number>
 struct MultiplierRange {
@@ -20,6 +23,9 @@ struct MultiplierRange {
 /// The polyhedron of multipliers at one of its vertices, as a simplex tableau: the basic multipliers are
 /// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0. In doubles, where
 /// what rounding leaves about 0 counts as 0, or in fractions.
+///
+/// Each vertex on the way to an end of one multiplier tells of every multiplier that is 0 there, and each
+/// edge without an end of every one that grows along it: most ends need no pivot of their own.
 template <class Number>
 class MultiplierTableau {
  public:
@@ -32,6 +38,8 @@ class MultiplierTableau {
       : now_{std::move(basic), std::move(nonbasic), std::move(value), std::move(T)},
         free_(std::move(is_free)),
         unbounded_(free_.size(), false),
+        vanishes_(free_.size(), false),
+        grows_(free_.size(), false),
         fixed_(now_.nonbasic.size(), false) {
     if constexpr (is_rounded) {
       // Entries and values below these parts of the largest are rounding about zero.
@@ -45,22 +53,27 @@ class MultiplierTableau {
       value_noise_ = relative_value_noise * value_size;
     }
     settle_free_columns();
+    note_vertex();
     if (is_rounded) start_ = now_;
   }
 
   /// The interval of the multiplier named `a` over the polyhedron; not a number where rounding keeps the
   /// pivots from an end.
   MultiplierRange<Number> range(Index a) {
-    if (unbounded_[at(a)]) return {};
+    if (unbounded_[at(a)] || is_spent()) return {};
     // After so many pivots the next range is found from the tableau at the start: rounding does not add up.
     constexpr Index most_pivots_since_start = 64;
     if (is_rounded && pivots_ > most_pivots_since_start) {
       now_ = start_;
       pivots_ = 0;
     }
-    std::optional<Number> low = extreme(a, false);
-    return {std::move(low), extreme(a, true)};
+    std::optional<Number> low = vanishes_[at(a)] ? std::optional<Number>(Number{}) : extreme(a, false);
+    return {std::move(low), grows_[at(a)] ? std::nullopt : extreme(a, true)};
   }
+
+  /// In fractions: no more pivots once they took so many word operations. Then ranges are not to be used.
+  void allow(double words) { most_words_ = words; }
+  bool is_spent() const { return words_ > most_words_; }
 
   /// Whether an entry that counted as 0 is more than the roundings of so many pivots, or one was divided by
   /// that is next to nothing beside others: then fractions may tell another interval.
@@ -131,7 +144,10 @@ class MultiplierTableau {
     for (std::size_t k = 0; k < of_entering.size(); ++k)
       if (k != row && !is_zero(of_entering[k])) changing_.push_back(k);
     const auto subtract = [&](Numbers& from, const Number& factor) {
-      for (const std::size_t k : changing_) from[k] = from[k] - of_entering[k] * factor;
+      for (const std::size_t k : changing_) {
+        from[k] = from[k] - of_entering[k] * factor;
+        if constexpr (!is_rounded) words_ += words_of_difference(from[k], of_entering[k], factor);
+      }
       from[row] = factor;
     };
     subtract(now_.value, entering);
@@ -140,6 +156,20 @@ class MultiplierTableau {
     for (Number& entry : of_entering) entry = -entry / element;
     of_entering[row] = Number{1} / element;
     std::swap(now_.basic[row], now_.nonbasic[column]);
+  }
+
+  /// What multipliers are 0 at the vertex.
+  void note_vertex() {
+    for (const Index name : now_.nonbasic) vanishes_[at(name)] = vanishes_[at(name)] || !is_free(name);
+    for (std::size_t k = 0; k < now_.basic.size(); ++k)
+      if (!is_free(now_.basic[k]) && !(value_noise_ < now_.value[k])) vanishes_[at(now_.basic[k])] = true;
+  }
+
+  /// What multipliers grow with nonbasic column `column`, which nothing blocks.
+  void note_edge_without_end(std::size_t column) {
+    grows_[at(now_.nonbasic[column])] = true;
+    for (std::size_t k = 0; k < now_.basic.size(); ++k)
+      if (is_positive(-now_.T[column][k])) grows_[at(now_.basic[k])] = true;
   }
 
   /// Free multipliers enter the basis for good; one that no sign hinders moves its partners without bound.
@@ -176,12 +206,12 @@ class MultiplierTableau {
 
   std::optional<Number> extreme(Index a, bool rises) {
     // By the rule of Bland (1977), the entering multiplier of least name that improves, the leaving one of
-    // least name, nothing comes back. In doubles the steepest column enters; after a step of length 0 the
-    // rule holds until there is a longer one. So nothing comes back, but for rounding: then the rule holds to
-    // the end, and there is one.
-    bool by_name = !is_rounded;
+    // least name, nothing comes back. The steepest column enters; after a step of length 0 the rule holds
+    // until there is a longer one. So nothing comes back, but for rounding: then the rule holds to the end,
+    // and there is one.
+    bool by_name = false;
     const std::size_t usual = now_.basic.size() + now_.nonbasic.size();
-    for (std::size_t count = 0; !is_rounded || count <= 20 * usual; ++count) {
+    for (std::size_t count = 0; is_rounded ? count <= 20 * usual : !is_spent(); ++count) {
       const auto position = std::find(now_.basic.begin(), now_.basic.end(), a);
       std::size_t entering = none;
       if (position == now_.basic.end()) {
@@ -194,12 +224,26 @@ class MultiplierTableau {
         if (entering == none) return without_noise(now_.value[row], is_free(a));
       }
       const Block block = blocking_row(entering, true);
-      if (block.row == none) return std::nullopt;
-      by_name = !is_rounded || !(Number{} < block.step) || count >= usual;
+      if (block.row == none) {
+        note_edge_without_end(entering);
+        return std::nullopt;
+      }
+      by_name = !(Number{} < block.step) || count >= usual;
       pivot(block.row, entering);
+      note_vertex();
+      if (!rises && vanishes_[at(a)]) return Number{};
     }
     if constexpr (is_rounded) return std::numeric_limits<double>::quiet_NaN();
     return std::nullopt;
+  }
+
+  /// Of a = d - b c in lowest terms: a common divisor takes some operations on each pair of words.
+  static double words_of_difference(const Number& a, const Number& b, const Number& c) {
+    const auto bits = [](const Number& x) {
+      return static_cast<double>(x.numerator.bits() + x.denominator.bits());
+    };
+    const double words = 1 + (bits(a) + bits(b) + bits(c)) / 64;
+    return words_of_fraction + words * words;
   }
 
   Number without_noise(const Number& value, bool may_be_negative) const {
@@ -213,9 +257,12 @@ class MultiplierTableau {
 
   State now_, start_;
   std::vector<std::size_t> changing_;  ///< rows of the last pivot with an entry in its column
-  std::vector<bool> free_, unbounded_, fixed_;
+  std::vector<bool> free_, unbounded_;
+  std::vector<bool> vanishes_, grows_;  ///< at a vertex, along an edge that were met; of free ones the latter
+  std::vector<bool> fixed_;
   Number noise_{}, value_noise_{}, rounding_{};
   mutable bool is_in_doubt_ = false;
+  double words_ = 0, most_words_ = std::numeric_limits<double>::infinity();
   Index pivots_ = 0;  // since the tableau was as at the start
 };
 

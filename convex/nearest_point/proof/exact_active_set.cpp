@@ -13,16 +13,17 @@
 namespace convex::inline proof {
 namespace {
 
-/// Bits of the longest number of each row of [A z] and [U s].
+double longest(const IntegerVector& numbers) {
+  std::size_t most = 0;
+  for (const Integer& number : numbers) most = std::max(most, number.bits());
+  return static_cast<double>(most);
+}
+
+/// Bits of the longest number of each row of A and U.
 std::vector<double> row_bits(const ExactProblem& problem) {
   std::vector<double> bits;
-  const auto add = [&](const IntegerVector& row, const Integer& right) {
-    std::size_t most = right.bits();
-    for (const Integer& entry : row) most = std::max(most, entry.bits());
-    bits.push_back(std::max(1.0, static_cast<double>(most)));
-  };
-  for (std::size_t i = 0; i < problem.z.size(); ++i) add(problem.A[i], problem.z[i]);
-  for (std::size_t a = 0; a < problem.s.size(); ++a) add(problem.U[a], problem.s[a]);
+  for (const IntegerRows* rows : {&problem.A, &problem.U})
+    for (const IntegerVector& row : *rows) bits.push_back(std::max(1.0, longest(row)));
   return bits;
 }
 
@@ -51,10 +52,8 @@ double operations(const ExactProblem& problem, std::size_t held, double bits, do
 }
 
 double operations_to_find(const ExactProblem& problem, const ExactVector& x, std::size_t held) {
-  std::size_t most = 0;
-  for (const Integer& numerator : x.numerators) most = std::max(most, numerator.bits());
-  const std::vector<double> bits = row_bits(problem);
-  return operations(problem, held, longest(bits), static_cast<double>(most + x.denominator.bits()));
+  const double of_fractions = longest(x.numerators) + static_cast<double>(x.denominator.bits());
+  return operations(problem, held, longest(row_bits(problem)), of_fractions);
 }
 
 class ExactActiveSet {
@@ -271,7 +270,9 @@ double word_operations(const ExactProblem& problem, std::size_t held) {
   std::vector<double> rows(bits.begin() + static_cast<std::ptrdiff_t>(problem.z.size()), bits.end());
   std::sort(rows.begin(), rows.end(), std::greater<>());
   for (std::size_t k = 0; k < std::min(held, rows.size()); ++k) of_all += rows[k];
-  return operations_of_inverse(problem, held) + operations(problem, held, longest(bits), 2 * of_all);
+  // By Cramer's rule: two determinants, one of them with the right side for a column.
+  const double of_fractions = 2 * of_all + std::max(longest(problem.z), longest(problem.s));
+  return operations_of_inverse(problem, held) + operations(problem, held, longest(bits), of_fractions);
 }
 
 ExactSolution exact_active_set(const ExactProblem& problem, const std::vector<Index>& guess,

@@ -4,86 +4,14 @@
 #include <limits>
 
 #include "convex/exact/modular.hpp"
-#include "convex/invalid_input.hpp"
-#include "convex/nearest_point/proof/exact_method.hpp"
+#include "convex/nearest_point/proof/exact_least_norm.hpp"
 
 namespace convex::inline proof {
 namespace {
 
-/// The row of N in lambda = start + N mu that belongs to a multiplier: -T_k· for a basic one, a unit for
-/// another.
-ExactVector null_row(const std::vector<ExactVector>& T, std::size_t basics, std::size_t name) {
-  std::vector<Fraction> row(T.size());
-  for (std::size_t p = 0; p < T.size(); ++p)
-    row[p] = name < basics ? -entry(T[p], name) : Fraction{p == name - basics ? 1 : 0, 1};
-  return exact_vector(row);
-}
-
-/// Doubles may be too coarse for the Gram matrix of long null vectors: then nothing is guessed.
-std::vector<Index> guess(const ExactProblem& problem) {
-  try {
-    return likely_active_rows(rounded(problem));
-  } catch (const InvalidInput&) {
-    return {};
-  }
-}
-
-/// Word operations of a product and a sum in lowest terms, and what an operation on integers costs beside
-/// those on its words.
-constexpr double words_of_fraction = 500, words_of_call = 20;
-
 /// Of the expansions of d rows in k: each is the solution of a linear system, of d and n unknowns at most.
 double words_of_expansions(const ExactProblem& problem, std::size_t k, std::size_t d) {
   return static_cast<double>(d + 1) * word_operations(problem, k) / 8;
-}
-
-/// Of the least norm: a Gram matrix of the dependent rows, whether it is definite, and its inverse modulo a
-/// prime.
-double words_of_least_norm(const std::vector<ExactVector>& T, std::size_t k) {
-  std::size_t bits = 0;
-  for (const ExactVector& expansion : T)
-    for (const Integer& numerator : expansion.numerators)
-      bits = std::max(bits, numerator.bits() + expansion.denominator.bits());
-  constexpr double word = 64;
-  const double d = static_cast<double>(T.size()), words = 1 + 2 * static_cast<double>(bits) / word,
-               of_product = words_of_call + words;
-  return d * d * (static_cast<double>(k) * of_product + words_of_fraction) + 2 * d * d * d * of_product;
-}
-
-/// Least |start + N mu| with start + N mu >= 0 on one-sided rows. False where that takes more word
-/// operations.
-bool least_norm(const std::vector<Index>& basic, const std::vector<Index>& dependent,
-                const std::vector<ExactVector>& T, const std::vector<bool>& is_free, double most_words,
-                ExactVector& lambda) {
-  const std::size_t k = basic.size(), d = dependent.size();
-  const double of_gram = words_of_least_norm(T, k);
-  if (of_gram > most_words) return false;
-  std::vector<Index> names = basic;
-  names.insert(names.end(), dependent.begin(), dependent.end());
-  ExactRows N, gram, signed_rows;
-  std::vector<Fraction> linear(d), bound;
-  std::vector<Fraction> start(k + d);
-  for (std::size_t j = 0; j < k + d; ++j) {
-    N.push_back(null_row(T, k, j));
-    start[j] = j < k ? entry(lambda, at(names[j])) : Fraction{};
-    if (is_free[at(names[j])]) continue;
-    signed_rows.push_back(N.back());
-    bound.push_back(-start[j]);
-  }
-  for (std::size_t p = 0; p < d; ++p) {
-    std::vector<Fraction> row(d);
-    for (std::size_t q = 0; q < d; ++q) row[q] = dot(T[p], T[q]) + Fraction{p == q ? 1 : 0, 1};
-    gram.push_back(exact_vector(row));
-    for (std::size_t j = 0; j < k; ++j) linear[p] = linear[p] + entry(T[p], j) * start[j];
-  }
-  const ExactProblem problem =
-      exact_problem(gram, exact_vector(linear), signed_rows, exact_vector(bound), {});
-  const ExactSolution best = exact_active_set(problem, guess(problem), most_words - of_gram);
-  if (best.status == Status::gave_up) return false;
-  std::vector<Fraction> all(lambda.numerators.size());
-  for (std::size_t j = 0; j < k + d; ++j) all[at(names[j])] = start[j] + lowest_terms(dot(N[j], best.q));
-  lambda = exact_vector(all);
-  return true;
 }
 
 /// The basis and those of the other tight rows that make it span them all.
@@ -155,6 +83,7 @@ std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, c
     std::vector<Fraction> value;
     for (Index a : basic) value.push_back(entry(solution.lambda, at(a)));
     MultiplierTableau<Fraction> all(basic, value, dependent, columns(T), is_free);
+    all.allow(left + of_ranges);
     // They are unique when every dependent row keeps its multiplier 0.
     for (Index p : dependent) {
       ranges[at(p)] = all.range(p);
@@ -163,10 +92,11 @@ std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, c
       if (!found.unique && !want_ranges) break;
     }
     if (!found.unique) {
-      if (!least_norm(basic, dependent, T, is_free, left, found.least_norm)) return std::nullopt;
+      if (!exact_least_norm(problem, basic, dependent, is_free, left, found.least_norm)) return std::nullopt;
       if (want_ranges)
         for (Index a : basic) ranges[at(a)] = all.range(a);
     }
+    if (all.is_spent()) return std::nullopt;
   }
   if (want_ranges || found.unique) found.ranges = std::move(ranges);
   return found;

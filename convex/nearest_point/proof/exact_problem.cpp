@@ -85,6 +85,13 @@ ExactProblem exact_problem(const NearestPointProblem& problem) {
 
 ExactProblem exact_problem(const ExactRows& A, const ExactVector& z, const ExactRows& U, const ExactVector& s,
                            std::vector<Index> two_sided) {
+  ExactProblem exact = exact_problem_of_definite(A, z, U, s, std::move(two_sided));
+  require_definite(exact);
+  return exact;
+}
+
+ExactProblem exact_problem_of_definite(const ExactRows& A, const ExactVector& z, const ExactRows& U,
+                                       const ExactVector& s, std::vector<Index> two_sided) {
   const std::size_t n = A.size();
   ExactProblem exact;
   require_symmetric(A);
@@ -120,7 +127,6 @@ ExactProblem exact_problem(const ExactRows& A, const ExactVector& z, const Exact
     exact.U.back() = std::move(common);
   }
   exact.two_sided = std::move(two_sided);
-  require_definite(exact);
   return exact;
 }
 

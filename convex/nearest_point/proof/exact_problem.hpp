@@ -36,6 +36,10 @@ ExactProblem exact_problem(const NearestPointProblem&);
 ExactProblem exact_problem(const ExactRows& A, const ExactVector& z, const ExactRows& U, const ExactVector& s,
                            std::vector<Index> two_sided);
 
+/// The same of an A known to be positive definite, as Tᵀ T + 1 is.
+ExactProblem exact_problem_of_definite(const ExactRows& A, const ExactVector& z, const ExactRows& U,
+                                       const ExactVector& s, std::vector<Index> two_sided);
+
 /// One more row with its bound, doubles at their exact values.
 void append_row(ExactProblem&, const Vector& row, double s);
 

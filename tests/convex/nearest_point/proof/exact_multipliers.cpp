@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/linear_algebra/cholesky.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
@@ -65,6 +66,63 @@ TEST_CASE(
   CHECK(convex::nearest_double(convex::entry(all.least_norm, 2)) == 1 / 25.5);
 }
 
+TEST_CASE(
+    "the least norm is shared in proportion to the rows where those that press do not span the others") {
+  // r = (1, 0) and nothing in the second coordinate, where two rows face each other.
+  const NearestPointProblem problem{
+      convex::Metric::identity(2),
+      Vector{{-1.0, 0.0}},
+      convex::ConstraintRows(RowMatrix{{3, 0}, {3, 0}, {6, 0}, {0, 1}, {0, -1}}),
+      Vector::Zero(5),
+      {}};
+  const ExactProblem exact = convex::exact_problem(problem);
+  const ExactMultipliers all = convex::exact_multipliers(exact, convex::exact_active_set(exact, {}), true);
+  const std::vector<std::string> shares{"1/18", "1/18", "1/9", "0", "0"};
+  for (std::size_t a = 0; a < shares.size(); ++a)
+    CHECK(convex::text(convex::entry(all.least_norm, a)) == shares[a]);
+}
+
+TEST_CASE("the least norm has multipliers that doubles do not see beside the others") {
+  // lambda = (1 - e t, t, t) is shortest at t = e / (2 + e²).
+  for (const double e : {0x1p-60, 0x1p-300}) {
+    CAPTURE(e);
+    const NearestPointProblem problem{convex::Metric::identity(2),
+                                      Vector{{-1.0, 0.0}},
+                                      convex::ConstraintRows(RowMatrix{{1, 0}, {e, 1}, {0, -1}}),
+                                      Vector::Zero(3),
+                                      {}};
+    const ExactProblem exact = convex::exact_problem(problem);
+    const ExactMultipliers all = convex::exact_multipliers(exact, convex::exact_active_set(exact, {}), true);
+    const Rational t = Rational(e) / (2 + Rational(e) * Rational(e));
+    const RationalVector least = oracles::rationals(all.least_norm);
+    CHECK((least[0] == 1 - Rational(e) * t));
+    CHECK((least[1] == t));
+    CHECK((least[2] == t));
+  }
+}
+
+TEST_CASE(
+    "a multiplier that turns out negative is 0: doubles cannot say which where numbers are beyond them") {
+  const auto row = [](const char* first, const char* second) {
+    return convex::exact_vector(
+        std::vector<convex::Fraction>{*convex::read_fraction(first), *convex::read_fraction(second)});
+  };
+  // r = (1, 0). With all rows of the first problem two multipliers would be negative, and the others span;
+  // with those of the second two would be, and the other does not span.
+  const std::vector<convex::ExactRows> problems{
+      {row("1", "0"), row("0", "1"), row("0", "-1"), row("-1", "-1e400")},
+      {row("1", "0"), row("-1", "1e400"), row("0", "-1")}};
+  for (const convex::ExactRows& rows : problems) {
+    const ExactProblem problem =
+        convex::exact_problem({row("1", "0"), row("0", "1")}, row("-1", "0"), rows,
+                              convex::exact_vector(std::vector<convex::Fraction>(rows.size())), {});
+    const ExactMultipliers all =
+        convex::exact_multipliers(problem, convex::exact_active_set(problem, {}), true);
+    for (std::size_t a = 0; a < rows.size(); ++a)
+      CHECK(convex::text(convex::entry(all.least_norm, a)) == (a == 0 ? "1" : "0"));
+  }
+}
+
 TEST_CASE("two-sided rows that repeat each other have multipliers of any size") {
   NearestPointProblem problem = four_legs();
   problem.two_sided = {0, 1, 2, 3};
@@ -108,9 +166,11 @@ TEST_CASE("least-norm multipliers give the same reaction and lie, with the verte
                            std::all_of(all.ranges->begin(), all.ranges->end(), [](const auto& range) {
                              return range.low && range.high && *range.low == *range.high;
                            })));
-      // The intervals of doubles agree.
+      // Doubles, in the multipliers of the dependent rows, agree.
       const auto rounded = convex::multipliers(problem, convex::active_set(problem), 1e-9, true);
       CHECK(rounded.unique == all.unique);
+      CHECK((rounded.least_norm - convex::nearest(all.least_norm)).norm() <=
+            1e-9 * rounded.least_norm.norm());
       for (std::size_t a = 0; a < least.size(); ++a) {
         const convex::Interval range = (*rounded.ranges)[a];
         const auto& exact_range = (*all.ranges)[a];
@@ -145,8 +205,27 @@ TEST_CASE("multipliers of many dependent rows are left out where fractions would
   const convex::ExactProblem exact = convex::exact_problem(problem);
   const convex::ExactSolution solution = convex::exact_active_set(exact, {});
   REQUIRE(solution.status == convex::Status::solved);
-  CHECK_FALSE(convex::exact_multipliers(exact, solution, false, convex::most_word_operations));
   CHECK_FALSE(convex::exact_multipliers(exact, solution, true, convex::most_word_operations));
+  CHECK_FALSE(convex::exact_multipliers(exact, solution, false, 1e4));
+}
+
+TEST_CASE("of 1200 rows at a vertex the least norm is found: six numbers tell it") {
+  const NearestPointProblem problem = many_rows_at_a_vertex(6, 1200);
+  const convex::ExactProblem exact = convex::exact_problem(problem);
+  const convex::ExactSolution solution = convex::exact_active_set(exact, {});
+  const auto all = convex::exact_multipliers(exact, solution, false, convex::most_word_operations);
+  REQUIRE(all);
+  const RationalVector least = oracles::rationals(all->least_norm);
+  CHECK(oracles::is_exact_solution(problem, {oracles::rationals(solution.q), least}));
+  // lambda = (U w)+: w from the loaded rows, that of least squares in doubles.
+  const Vector lambda = convex::nearest(all->least_norm);
+  std::vector<Index> loaded;
+  for (Index a = 0; a < lambda.size(); ++a)
+    if (lambda[a] > 0) loaded.push_back(a);
+  const convex::Matrix U = problem.U.dense(), of_loaded = U(loaded, Eigen::all);
+  const convex::linear_algebra::Cholesky gram(of_loaded.transpose() * of_loaded);
+  const Vector w = gram.solve(of_loaded.transpose() * lambda(loaded));
+  CHECK(((U * w).cwiseMax(0) - lambda).norm() <= 1e-10 * lambda.norm());
 }
 
 TEST_CASE("where multipliers take too long the exact point alone still bounds the error") {
