@@ -9,6 +9,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/cancelling_gradients.hpp"
+#include "mechanics/evaluation_error.hpp"
 #include "mechanics/exact_text.hpp"
 #include "mechanics/proof_as_written.hpp"
 #include "mechanics/rounded_data.hpp"
@@ -185,6 +186,10 @@ namespace {
 bool leaves_contacts_open(const Scene& scene, const mechanics::GaussSolution& solution) {
   if (scene.problem.dimension() > static_cast<convex::Index>(mechanics::most_exact_coordinates)) return false;
   const convex::Solution& answer = solution.primal;
+  // What only touches may press, or be violated, by less than its rounding.
+  if (const auto& radii = scene.problem.radii)
+    for (const convex::Index a : solution.touching)
+      if (radii->s[a] > 0 || radii->row[a] > 0) return true;
   std::vector<convex::Index> rows;
   for (convex::Index a = 0; a < scene.problem.rows(); ++a)
     if (!scene.problem.is_two_sided(a) &&
@@ -208,10 +213,13 @@ std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::Gau
   if (!was_solved ||
       (solution.primal.status == convex::Status::solved && !leaves_contacts_open(scene, solution)))
     return as_evaluated;
-  if (!is_default(scene.solve) || !scene.added.empty()) return as_evaluated;
-  const bool is_decided =
-      is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning);
-  return is_decided ? std::nullopt : as_evaluated;
+  if (!scene.added.empty()) return as_evaluated;
+  if (is_default(scene.solve) &&
+      is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning))
+    return std::nullopt;
+  if (solution.primal.status == convex::Status::solved)
+    mechanics::touch_within_error(solution, scene.problem);
+  return as_evaluated;
 }
 
 ProvedScene resolve_and_prove(Scene& scene, bool certify) {

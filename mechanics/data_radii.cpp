@@ -250,12 +250,12 @@ convex::EntryRadii data_radii(const LagrangianSystem& system, const State& state
 }
 
 convex::DataRadii row_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
-                            const std::vector<Index>& contacts, const Vector& diagonal) {
+                            const std::vector<Index>& contacts, const convex::Metric& metric) {
   convex::EntryRadii found;
   if (contacts.empty()) return {Vector(0), Vector(0)};
   add_contacts(system.model(), rounded_state(state, radii), rounded_nodes(system.model().tape), contacts,
                found);
-  return found.by_rows(diagonal);
+  return found.by_rows(metric);
 }
 
 RateRadii rate_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii) {

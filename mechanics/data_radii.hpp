@@ -31,10 +31,10 @@ StateRadii guessed_radii(const State&);
 convex::EntryRadii data_radii(const LagrangianSystem&, const State&, const StateRadii&,
                               const std::vector<Index>& contacts);
 
-/// Those of U and s alone, by rows (`convex::EntryRadii::by_rows`) with the diagonal of A: what decisions
-/// about rows need, at about the price of their evaluation.
+/// Those of U and s alone, by rows (`convex::EntryRadii::by_rows`) in the metric A: what decisions about
+/// rows need, at about the price of their evaluation.
 convex::DataRadii row_radii(const LagrangianSystem&, const State&, const StateRadii&,
-                            const std::vector<Index>& contacts, const Vector& diagonal);
+                            const std::vector<Index>& contacts, const convex::Metric& metric);
 
 /// How far f_a and df_a/dt, as `constraint_rates` evaluates them, may be from those as written.
 struct RateRadii {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/multipliers/largest_move.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 #include "mechanics/data_radii.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
@@ -20,6 +21,20 @@ std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const c
   for (Index a = 0; a < problem.rows(); ++a)
     if (held[static_cast<std::size_t>(a)] || solution.lambda[a] != 0) rows.push_back(a);
   return rows;
+}
+
+/// With the one-sided rows that the answer may violate: they would hold it where it does.
+std::vector<Index> with_open_rows(std::vector<Index> held, const convex::NearestPointProblem& problem,
+                                  const convex::Solution& solution, const Vector& left) {
+  constexpr double most_work = 1e7;
+  std::vector<bool> known = convex::marked(problem.rows(), held);
+  for (Index a : problem.two_sided) known[static_cast<std::size_t>(a)] = true;
+  const std::size_t before = held.size();
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!known[static_cast<std::size_t>(a)] && left[a] > 0 && solution.slack[a] <= left[a]) held.push_back(a);
+  const double count = static_cast<double>(held.size());
+  if (static_cast<double>(problem.dimension()) * count * count > most_work) held.resize(before);
+  return held;
 }
 
 /// The equations of A, z, U, s are those as written, evaluated once more in another order.
@@ -84,7 +99,7 @@ double evaluation_error(const WrittenMechanism& written, const std::vector<Index
                         const convex::Solution& solution, const convex::Accuracy& accuracy) {
   const LeftOfEquations left =
       left_of_equations(written, contacts, added, problem, solution.q, solution.lambda);
-  const std::vector<Index> held = rows_held(problem, solution);
+  const std::vector<Index> held = with_open_rows(rows_held(problem, solution), problem, solution, left.rows);
   constexpr double far_below = 1e-2;
   constexpr Index small_system = 40;
   const Units units = fit_units(problem);
@@ -108,6 +123,36 @@ void leave_out_pressing(GaussSolution& found, const WrittenMechanism& written,
     return;
   const LeftOfEquations left = left_of_equations(written, contacts, {}, problem, found.primal.q, lambda);
   leave_out_pressing(found.touching, problem, found.primal, found.multipliers, left.balance);
+}
+
+void touch_within_error(GaussSolution& found, const convex::NearestPointProblem& problem) {
+  convex::Multipliers& multipliers = found.multipliers;
+  std::vector<bool> touches = convex::marked(problem.rows(), found.touching),
+                    is_tight = convex::marked(problem.rows(), multipliers.tight);
+  std::vector<Index> rows;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!problem.is_two_sided(a) && !touches[static_cast<std::size_t>(a)]) rows.push_back(a);
+  const Vector length = convex::dual_lengths(problem, rows);
+  for (const Index a : rows) {
+    const auto k = static_cast<std::size_t>(a);
+    const double error = length[a] * found.primal.error_bound;
+    if (!is_tight[k]) {
+      touches[k] = is_tight[k] = found.primal.slack[a] <= error;
+    } else if (multipliers.unique || multipliers.ranges) {
+      const double most = multipliers.unique ? multipliers.least_norm[a] : (*multipliers.ranges)[k].high;
+      touches[k] = most * length[a] <= found.primal.error_bound;
+    }
+  }
+  found.touching.clear();
+  multipliers.tight.clear();
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (touches[static_cast<std::size_t>(a)]) found.touching.push_back(a);
+    if (is_tight[static_cast<std::size_t>(a)]) multipliers.tight.push_back(a);
+  }
+  if (static_cast<Index>(multipliers.tight.size()) != problem.rows() || found.hypothesis.accepted) return;
+  found.hypothesis = {};
+  found.hypothesis.accepted = true;
+  found.hypothesis.two_sided = {true, found.primal.q, multipliers.least_norm, multipliers.unique, false};
 }
 
 void count_evaluation_error(convex::Solution& solution, double error, const convex::Accuracy& accuracy) {

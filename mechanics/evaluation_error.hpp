@@ -24,4 +24,9 @@ void count_evaluation_error(convex::Solution&, double error, const convex::Accur
 void leave_out_pressing(GaussSolution&, const WrittenMechanism&, const std::vector<Index>& contacts,
                         const convex::NearestPointProblem&);
 
+/// One-sided contacts that press, or open, by no more than what the error bound makes of it count as
+/// touching: all that is known is that they may. Where all contacts are tight then, the answer is the motion
+/// with every contact held, too.
+void touch_within_error(GaussSolution&, const convex::NearestPointProblem&);
+
 }  // namespace mechanics

@@ -99,11 +99,10 @@ convex::ConstraintRows with_zero_rows(const convex::ConstraintRows& U, const std
 /// One-sided rows that may be 0 within their radii: 0 where the text proves that they are (cos at pi/2).
 void settle_vanishing_rows(const WrittenMechanism& written, const std::vector<Index>& contacts,
                            convex::NearestPointProblem& problem, convex::DataRadii& radii) {
-  const Vector unit = problem.A.diagonal().cwiseSqrt().cwiseInverse();
   std::vector<Index> rows, suspects;
   for (Index k = 0; k < problem.rows(); ++k) {
     if (problem.is_two_sided(k) || !(radii.row[k] > 0)) continue;
-    if (!(problem.U.row(k).cwiseProduct(unit).norm() <= radii.row[k])) continue;
+    if (!(problem.A.dual_norm(problem.U.row(k)) <= radii.row[k])) continue;
     rows.push_back(k);
     suspects.push_back(contacts[static_cast<std::size_t>(k)]);
   }
@@ -137,7 +136,7 @@ GaussProblem gauss_problem(const WrittenMechanism& written, const Vector& contac
   GaussProblem found = as_evaluated(*written.system, written.state, contact_tolerance);
   convex::NearestPointProblem& problem = found.problem;
   convex::DataRadii radii =
-      row_radii(*written.system, written.state, written.radii, found.contacts.present, problem.A.diagonal());
+      row_radii(*written.system, written.state, written.radii, found.contacts.present, problem.A);
   // Rows without radii say that z is rounded, unless nothing is.
   if (radii.is_zero()) {
     if (is_motion_rounded(written)) problem.radii = std::move(radii);

@@ -237,7 +237,7 @@ class Proving {
                                                    const convex::EntryRadii& radii,
                                                    const std::vector<Index>& K) {
     if (K != contacts_ || found_.solution.primal.status != Status::infeasible ||
-        !radii.by_rows(over.A.diagonal()).is_zero())
+        !radii.by_rows(over.A).is_zero())
       return std::nullopt;
     auto proof = convex::infeasibility_proof(over, found_.solution.primal.farkas);
     if (!proof) return std::nullopt;

@@ -84,7 +84,7 @@ ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
   if (scene.written) {
     std::vector<Index> first(static_cast<std::size_t>(m));
     std::iota(first.begin(), first.end(), Index{0});
-    radii = mechanics::row_radii(*scene.system, scene.state, scene.written->radii, first, A.diagonal());
+    radii = mechanics::row_radii(*scene.system, scene.state, scene.written->radii, first, A);
   }
   for (Index a = 0; a < m; ++a) {
     const Vector u = rows.row(a);

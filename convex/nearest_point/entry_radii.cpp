@@ -8,8 +8,8 @@ Eigen::Map<const Vector> entries(const SparseRows& M) { return {M.valuePtr(), M.
 
 }  // namespace
 
-DataRadii EntryRadii::by_rows(const Vector& diagonal) const {
-  return {ConstraintRows(U).lengths(diagonal.cwiseInverse()), s};
+DataRadii EntryRadii::by_rows(const Metric& metric) const {
+  return {longest_within(ConstraintRows(U), metric), s};
 }
 
 bool EntryRadii::is_finite() const {

@@ -13,8 +13,8 @@ struct EntryRadii {
   SparseRows U;    ///< m×n
   Vector s;        ///< m
 
-  /// The same by rows, as methods use them: ||Û_a||_(D⁻¹) with D the diagonal of A, and ŝ.
-  DataRadii by_rows(const Vector& diagonal) const;
+  /// The same by rows, as methods use them: `longest_within` of U in the metric, and ŝ.
+  DataRadii by_rows(const Metric&) const;
   /// Whether every number is known.
   bool is_finite() const;
   /// Whether every number is exact.

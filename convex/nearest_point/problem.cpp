@@ -35,9 +35,27 @@ std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
   return mark;
 }
 
+Vector unit_lengths(const Metric& A) {
+  constexpr Index many = 500;  // beyond, an inverse takes longer than what needs it
+  const bool is_diagonal = A.kind() == MetricKind::identity || A.kind() == MetricKind::diagonal;
+  if (is_diagonal || A.dimension() > many) return A.diagonal().cwiseSqrt().cwiseInverse();
+  Matrix units = Matrix::Identity(A.dimension(), A.dimension());
+  A.whiten_in_place(units);
+  return units.colwise().norm();
+}
+
+Vector longest_within(const ConstraintRows& U, const Metric& A) {
+  if (A.kind() == MetricKind::identity || A.kind() == MetricKind::diagonal)
+    return U.lengths(A.diagonal().cwiseInverse());
+  const Vector unit = unit_lengths(A);
+  Vector longest(U.count());
+  for (Index a = 0; a < U.count(); ++a) longest[a] = U.absolute_dot(a, unit);
+  return longest;
+}
+
 DataRadii rounding_radii(const NearestPointProblem& problem, double roundings) {
   const double part = roundings * unit_roundoff;
-  return {part * problem.U.lengths(problem.A.diagonal().cwiseInverse()), part * problem.s.cwiseAbs()};
+  return {part * longest_within(problem.U, problem.A), part * problem.s.cwiseAbs()};
 }
 
 void validate(const NearestPointProblem& problem) {

@@ -9,8 +9,8 @@
 
 namespace convex {
 
-/// By how much the doubles of a problem may be off the numbers that they stand for: ||δu_a||_(D⁻¹) <= row_a,
-/// D the diagonal of A, and |δs_a| <= s_a. Rows that some numbers within their radii make dependent, and
+/// By how much the doubles of a problem may be off the numbers that they stand for: ||δu_a||_(A⁻¹) <= row_a
+/// and |δs_a| <= s_a. Rows that some numbers within their radii make dependent, and
 /// consistent, count as that. Both: m.
 struct DataRadii {
   Vector row, s;
@@ -24,6 +24,11 @@ std::optional<DataRadii> select(const std::optional<DataRadii>&, const std::vect
 std::vector<bool> marked(Index count, const std::vector<Index>& chosen);
 
 struct NearestPointProblem;
+
+/// ||e_i||_(A⁻¹) of each coordinate: n. Where A is full and has many, 1 / sqrt(A_ii), which is no more.
+Vector unit_lengths(const Metric& A);
+/// At most ||e||_(A⁻¹) of all e with |e_i| <= |u_ai|, of every row: m.
+Vector longest_within(const ConstraintRows& U, const Metric& A);
 /// Radii as if every number of U and s had been rounded so many times.
 DataRadii rounding_radii(const NearestPointProblem&, double roundings);
 

@@ -16,6 +16,42 @@ struct Polynomials {
   std::vector<NodeId> slope, bend, jerk;
 };
 
+/// Whether the double of a constant is the number itself: small integers, and what is made of them.
+bool is_small_integer(const Tape& tape, NodeId node) {
+  constexpr double most = 0x1p53;
+  const double x = tape.constant(node);
+  if (!(std::abs(x) < most) || x != std::round(x)) return false;
+  switch (tape.operation(node)) {
+    case Operation::literal:
+      return rounded_literal(tape, node).radius == 0;
+    case Operation::parameter:
+    case Operation::negate:
+      return is_small_integer(tape, tape.a(node));
+    case Operation::add:
+    case Operation::subtract:
+    case Operation::multiply:
+      return is_small_integer(tape, tape.a(node)) && is_small_integer(tape, tape.b(node));
+    default:
+      return false;
+  }
+}
+
+/// The sign of a constant as written; none where that does not tell.
+std::optional<int> sign_as_written(const Tape& tape, NodeId node) {
+  const double x = tape.constant(node);
+  if (std::isnan(x) || is_small_integer(tape, node)) return x < 0 ? -1 : x > 0 ? 1 : 0;
+  constexpr long precisions[] = {0, 512};  // bits; fractions first
+  const ExactState nothing;
+  for (const long precision : precisions) {
+    if (precision != 0 && !convex::Ball::why_none().empty()) break;
+    ExactEvaluation evaluate(tape, nothing, precision, JetPart::rates);
+    const auto& jet = evaluate(node);
+    if (!jet || !jet->value.is_finite()) continue;
+    if (const auto sign = jet->value.sign()) return sign;
+  }
+  return std::nullopt;
+}
+
 /// Builds nodes of one origin.
 class Builder {
  public:
@@ -29,7 +65,8 @@ class Builder {
 
   /// The one where d >= 0, the other where d < 0.
   NodeId branches(NodeId d, NodeId not_negative, NodeId negative) {
-    if (tape_->is_chosen(d)) return tape_->constant(d) < 0 ? negative : not_negative;
+    if (tape_->is_chosen(d))
+      if (const auto sign = sign_as_written(*tape_, d)) return *sign < 0 ? negative : not_negative;
     if (is_zero(not_negative)) return binary(Operation::where_negative, d, negative);
     if (is_zero(negative)) return binary(Operation::where_not_negative, d, not_negative);
     return sum(binary(Operation::where_not_negative, d, not_negative),
