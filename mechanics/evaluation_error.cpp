@@ -23,20 +23,6 @@ std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const c
   return rows;
 }
 
-/// With the one-sided rows that the answer may violate: they would hold it where it does.
-std::vector<Index> with_open_rows(std::vector<Index> held, const convex::NearestPointProblem& problem,
-                                  const convex::Solution& solution, const Vector& left) {
-  constexpr double most_work = 1e7;
-  std::vector<bool> known = convex::marked(problem.rows(), held);
-  for (Index a : problem.two_sided) known[static_cast<std::size_t>(a)] = true;
-  const std::size_t before = held.size();
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (!known[static_cast<std::size_t>(a)] && left[a] > 0 && solution.slack[a] <= left[a]) held.push_back(a);
-  const double count = static_cast<double>(held.size());
-  if (static_cast<double>(problem.dimension()) * count * count > most_work) held.resize(before);
-  return held;
-}
-
 /// The equations of A, z, U, s are those as written, evaluated once more in another order.
 constexpr double evaluations = 2;
 
@@ -45,9 +31,11 @@ Vector left_of(const RoundedVector& equations) {
   return (evaluations * equations.radius).cwiseMax(equations.value.cwiseAbs() + equations.radius);
 }
 
-/// Of the equations at the answer: z + Σ lambda_a u_a - A q'', and by row of the problem.
+/// Of the equations at the answer: z + Σ lambda_a u_a - A q'', and by row of the problem; and the rows whose
+/// slack there may be negative.
 struct LeftOfEquations {
   Vector balance, rows;
+  std::vector<Index> open;
 };
 
 /// Those of the contacts, and behind them of rows that were added. The row in whose place one was added asks
@@ -61,7 +49,10 @@ LeftOfEquations left_of_equations(const WrittenMechanism& written, const std::ve
       equations_as_written(*written.system, written.state, written.radii, contacts, q, lambda.head(count));
   const Vector root = problem.A.diagonal().cwiseSqrt();
   const double length = root.cwiseProduct(q).norm();
-  LeftOfEquations left{{}, left_of(found.rows)};
+  LeftOfEquations left{{}, left_of(found.rows), {}};
+  for (Index a = 0; a < count; ++a)
+    if (const double radius = evaluations * found.rows.radius[a]; radius > 0 && found.rows.value[a] <= radius)
+      left.open.push_back(a);
   left.rows.conservativeResize(count + static_cast<Index>(added.size()));
   for (std::size_t k = 0; k < added.size(); ++k) {
     const AddedRow& row = added[k];
@@ -74,6 +65,20 @@ LeftOfEquations left_of_equations(const WrittenMechanism& written, const std::ve
   }
   left.balance = left_of(found.balance);
   return left;
+}
+
+/// The rows held, and with them the one-sided ones that the answer may violate: they would hold it where it
+/// does.
+std::vector<Index> with_open_rows(std::vector<Index> held, const convex::NearestPointProblem& problem,
+                                  const std::vector<Index>& open) {
+  constexpr double most_work = 1e7;
+  const std::vector<bool> known = convex::marked(problem.rows(), held);
+  const std::size_t before = held.size();
+  for (const Index a : open)
+    if (!known[static_cast<std::size_t>(a)] && !problem.is_two_sided(a)) held.push_back(a);
+  const double count = static_cast<double>(held.size());
+  if (static_cast<double>(problem.dimension()) * count * count > most_work) held.resize(before);
+  return held;
 }
 
 /// The move of q'' that the rest of the equations amounts to. A one-sided row whose multiplier is no more
@@ -99,7 +104,7 @@ double evaluation_error(const WrittenMechanism& written, const std::vector<Index
                         const convex::Solution& solution, const convex::Accuracy& accuracy) {
   const LeftOfEquations left =
       left_of_equations(written, contacts, added, problem, solution.q, solution.lambda);
-  const std::vector<Index> held = with_open_rows(rows_held(problem, solution), problem, solution, left.rows);
+  const std::vector<Index> held = with_open_rows(rows_held(problem, solution), problem, left.open);
   constexpr double far_below = 1e-2;
   constexpr Index small_system = 40;
   const Units units = fit_units(problem);
@@ -108,7 +113,8 @@ double evaluation_error(const WrittenMechanism& written, const std::vector<Index
            move_of(in_units(problem, units), held,
                    solution.lambda / units.mass / units.acceleration * units.gradient,
                    {left.balance / units.mass / units.acceleration,
-                    left.rows / units.gradient / units.acceleration});
+                    left.rows / units.gradient / units.acceleration,
+                    {}});
   if (problem.dimension() > small_system && left.rows(held).isZero(0)) {
     const double coarse = convex::largest_move(problem.A, left.balance);
     if (coarse <= far_below * accuracy.tolerance * std::max(1.0, solution.acceleration_norm)) return coarse;

@@ -88,3 +88,85 @@ TEST_CASE("at a knot of a table that its argument meets as written, though not i
   const Json jump = answer("if(sin(a) >= 0.5, 10, -10)");
   CHECK((jump["acceleration"]["x"] == 10 || jump["status"] == "inaccurate"));
 }
+
+TEST_CASE("contacts whose gradients are one as written share a force, whatever masses are coupled") {
+  // A rod stands upright on a lift, each below a ceiling: cos(pi/2) = 0, but 6e-17 in doubles.
+  const Folder folder;
+  for (const int force : {1, -1}) {
+    CAPTURE(force);
+    const std::string file =
+        folder.write("lift.toml",
+                     "[system]\ncoordinates = [\"y\", \"a\", \"b\"]\n"
+                     "kinetic = \"y'^2/2 + (y' + b')^2/2 + (b' + a')^2/2 + a'^2/2\"\n[system.forces]\ny = " +
+                         std::to_string(force) +
+                         "\n[system.constraints]\nlift = \"y <= 0\"\ntip = \"y + sin(a) <= 1\"\n[state]\n"
+                         "position = { y = 0, a = \"pi/2\", b = 0 }\n");
+    const Json answer = Json::parse(run({"solve", "--json", file}).out);
+    REQUIRE(answer["status"] == "solved");
+    const double half = force / 2.0;
+    for (const char* name : {"lift", "tip"}) {
+      CAPTURE(name);
+      CHECK(answer["constraints"][name]["state"] == (force > 0 ? "persists" : "opens"));
+      CHECK(answer["two_sided"]["multipliers"][name].get<double>() == doctest::Approx(half).epsilon(1e-12));
+    }
+    CHECK(answer["hypothesis"]["accepted"] == (force > 0));
+    CHECK(answer["multipliers_unique"] == (force < 0));
+    CHECK(run({"check", file}).code == 0);
+  }
+}
+
+TEST_CASE("a slack that rounding hides moves the acceleration by itself over what its gradient leaves") {
+  // -y'' >= 11 and 1e-6 x'' + y'' >= -11 + 1e-6 + 8e-16: x'' = 1 + 8e-10.
+  const Folder folder;
+  const std::string file = folder.write(
+      "hidden.toml",
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n[system.forces]\nx = 1\n"
+      "y = -10\n[system.constraints]\na = \"-y >= 11*t^2/2\"\n"
+      "b = \"1e-6*x + y >= (-11 + 1e-6 + 8e-16)*t^2/2\"\n[state]\nposition = { x = 0, y = 0 }\n");
+  const Json answer = Json::parse(run({"solve", "--json", file}).out);
+  REQUIRE(answer["status"] == "solved");
+  const double off = std::abs(answer["acceleration"]["x"].get<double>() - (1 + 8e-10));
+  CHECK(off <= answer["certificate"]["error_bound"].get<double>() + 1e-15);
+  CHECK(off <= 1e-15);
+  CHECK(answer["constraints"]["b"]["state"] == "persists");
+}
+
+TEST_CASE("contacts that press or open by less than the error touch, where no fractions decide it") {
+  // A block is held on an incline by a force that is its weight's part along it, at an irrational angle.
+  const Folder folder;
+  const std::string file =
+      folder.write("incline.toml",
+                   "[system]\ncoordinates = [\"x\", \"s\"]\n"
+                   "kinetic = \"0.75*x'^2 + 1/2*((x' + s'*cos(al))^2 + (s'*sin(al))^2)\"\n"
+                   "potential = \"9.81*s*sin(al)\"\n[system.parameters]\nal = \"pi/6\"\n[system.forces]\n"
+                   "s = \"9.81*tan(al)*cos(al)\"\n[system.constraints]\nlow = \"s >= 0\"\nstop = \"x <= 0\"\n"
+                   "again = \"2*s >= 0\"\n[state]\nposition = { x = 0, s = 0 }\n");
+  const Json answer = Json::parse(run({"solve", "--json", file}).out);
+  REQUIRE(answer["status"] == "solved");
+  for (const char* name : {"low", "stop", "again"}) CHECK(answer["constraints"][name]["state"] == "touches");
+  CHECK(answer["hypothesis"]["accepted"] == true);
+}
+
+TEST_CASE("a condition that no coordinate has a part in is decided as written") {
+  const Folder folder;
+  const std::pair<const char*, int> conditions[] = {{"1/3 > 0.3333333333333333", 1},
+                                                    {"sin(pi) > 0", -1},
+                                                    {"pi > 3.141592653589793", 1},
+                                                    {"a + b > 0.3", -1},
+                                                    {"a + b >= 0.3", 1},
+                                                    {"sqrt(2)*sqrt(2) > 2", -1},
+                                                    {"3*5 - 14 > 0", 1}};
+  for (const auto& [condition, force] : conditions) {
+    CAPTURE(condition);
+    const std::string file =
+        folder.write("condition.toml",
+                     "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\n[system.parameters]\n"
+                     "a = 0.1\nb = 0.2\n[system.forces]\ny = \"if(" +
+                         std::string(condition) + ", 1, -1)\"\n[state]\nposition = { y = 0 }\n");
+    for (const bool certify : {false, true}) {
+      const Outcome outcome =
+          certify ? run({"solve", "--json", "--certify", file}) : run({"solve", "--json", file});
+      CHECK(Json::parse(outcome.out)["acceleration"]["y"] == force);
+    }
+  }
+}
