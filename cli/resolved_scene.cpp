@@ -196,12 +196,14 @@ bool leaves_contacts_open(const Scene& scene, const mechanics::GaussSolution& so
         !std::binary_search(solution.touching.begin(), solution.touching.end(), a))
       rows.push_back(a);
   const convex::Vector length = convex::dual_lengths(scene.problem, rows);
-  const convex::Vector& lambda = solution.multipliers.least_norm;
+  const convex::Multipliers& multipliers = solution.multipliers;
   return std::any_of(rows.begin(), rows.end(), [&](convex::Index a) {
-    const bool is_tight =
-        std::binary_search(solution.multipliers.tight.begin(), solution.multipliers.tight.end(), a);
-    return is_tight ? solution.multipliers.unique && lambda[a] * length[a] <= answer.error_bound
-                    : answer.slack[a] <= length[a] * answer.error_bound;
+    if (!std::binary_search(multipliers.tight.begin(), multipliers.tight.end(), a))
+      return answer.slack[a] <= length[a] * answer.error_bound;
+    if (!multipliers.unique && !multipliers.ranges) return false;
+    const double most = multipliers.unique ? multipliers.least_norm[a]
+                                           : (*multipliers.ranges)[static_cast<std::size_t>(a)].high;
+    return most * length[a] <= answer.error_bound;
   });
 }
 
@@ -242,6 +244,9 @@ ProvedScene resolve_and_prove(Scene& scene, bool certify) {
     resolved.warnings.push_back(*std::move(violated));
     nothing();
   }
+  if (found.certificate.level == convex::ProofLevel::enclosure && scene.written &&
+      found.solution.primal.status == convex::Status::solved)
+    mechanics::touch_within_error(found.solution, scene.problem);
   return resolved;
 }
 

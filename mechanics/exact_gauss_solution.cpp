@@ -22,19 +22,35 @@ std::vector<Index> guess(const convex::NearestPointProblem& problem) {
   }
 }
 
+/// The exact numbers, each rounded once, where `problem` has them with radii; null where they are no ordinary
+/// doubles.
+std::shared_ptr<const convex::NearestPointProblem> rounded_once(const convex::ExactProblem& exact,
+                                                                const convex::NearestPointProblem& problem) {
+  if (!problem.radii) return nullptr;
+  try {
+    auto data = std::make_shared<convex::NearestPointProblem>(convex::rounded(exact));
+    data->radii = convex::rounding_radii(*data, 1);
+    return data;
+  } catch (const convex::InvalidInput&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
-                                 const convex::NearestPointProblem& problem, const GaussOptions& options,
+                                 const convex::NearestPointProblem& evaluated, const GaussOptions& options,
                                  const std::vector<Index>& rows, double most_words) {
   ExactGaussSolution found;
-  found.primal = convex::exact_active_set(exact, rows.empty() ? guess(problem) : rows, most_words);
+  found.primal = convex::exact_active_set(exact, rows.empty() ? guess(evaluated) : rows, most_words);
   GaussSolution& rounded = found.rounded;
   rounded.primal.status = found.primal.status;
   if (found.primal.status == convex::Status::gave_up) return found;
   rounded.primal = convex::rounded(exact, found.primal, options.accuracy);
   if (found.primal.status == convex::Status::infeasible) return found;
 
+  rounded.data = rounded_once(exact, evaluated);
+  const convex::NearestPointProblem& problem = rounded.data ? *rounded.data : evaluated;
   const bool ranges = options.always_ranges || problem.rows() <= most_ranges;
   const double left = most_words - found.primal.word_operations;
   std::optional<convex::ExactMultipliers> multipliers =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "convex/nearest_point/methods.hpp"
@@ -37,6 +38,8 @@ struct GaussSolution {
   std::optional<Reduced> reduced;  ///< when accuracy.reduce is off
   /// The answer is that of the numbers as they were written, in fractions; their doubles did not decide it.
   bool as_written = false;
+  /// Those numbers, each rounded once, where their doubles as evaluated are others; or null.
+  std::shared_ptr<const convex::NearestPointProblem> data;
 };
 
 /// The ranges of multipliers that are not unique cost two linear programs each; beyond so many contacts they
