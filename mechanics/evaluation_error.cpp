@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "convex/nearest_point/multipliers/largest_move.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
@@ -129,6 +130,22 @@ void leave_out_pressing(GaussSolution& found, const WrittenMechanism& written,
     return;
   const LeftOfEquations left = left_of_equations(written, contacts, {}, problem, found.primal.q, lambda);
   leave_out_pressing(found.touching, problem, found.primal, found.multipliers, left.balance);
+}
+
+void leave_out_opening(GaussSolution& found, const convex::NearestPointProblem& problem, double tolerance) {
+  const convex::Solution& primal = found.primal;
+  const Vector length = convex::dual_lengths(problem, found.touching), magnitude = primal.q.cwiseAbs();
+  const auto opens = [&](Index a) {
+    double small = tolerance * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)) +
+                   length[a] * primal.error_bound;
+    if (problem.radii) small += problem.radii->s[a] + problem.radii->row[a] * primal.acceleration_norm;
+    return found.multipliers.least_norm[a] == 0 && primal.slack[a] > small;
+  };
+  std::vector<Index> open;
+  std::copy_if(found.touching.begin(), found.touching.end(), std::back_inserter(open), opens);
+  const auto is_open = [&](Index a) { return std::binary_search(open.begin(), open.end(), a); };
+  std::erase_if(found.touching, is_open);
+  std::erase_if(found.multipliers.tight, is_open);
 }
 
 void touch_within_error(GaussSolution& found, const convex::NearestPointProblem& problem) {

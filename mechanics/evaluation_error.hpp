@@ -24,6 +24,11 @@ void count_evaluation_error(convex::Solution&, double error, const convex::Accur
 void leave_out_pressing(GaussSolution&, const WrittenMechanism&, const std::vector<Index>& contacts,
                         const convex::NearestPointProblem&);
 
+/// Of the contacts that touch, those stay whose slack may be 0 for all that the error bound, the radii of
+/// rows and `tolerance`, relative to the terms of the row alone, tell. The others open, whatever is pushed
+/// elsewhere.
+void leave_out_opening(GaussSolution&, const convex::NearestPointProblem&, double tolerance);
+
 /// One-sided contacts that press, or open, by no more than what the error bound makes of it count as
 /// touching: all that is known is that they may. Where all contacts are tight then, the answer is the motion
 /// with every contact held, too.

@@ -16,8 +16,10 @@ std::optional<double> count_evaluation_error(const Scene& scene, mechanics::Gaus
   const double error = mechanics::evaluation_error(*scene.written, scene.contacts, scene.added, scene.problem,
                                                    primal, scene.solve.accuracy);
   mechanics::count_evaluation_error(primal, error, scene.solve.accuracy);
-  if (scene.added.empty())
+  if (scene.added.empty()) {
     mechanics::leave_out_pressing(solution, *scene.written, scene.contacts, scene.problem);
+    mechanics::leave_out_opening(solution, scene.problem, scene.solve.accuracy.tolerance);
+  }
   return as_evaluated;
 }
 

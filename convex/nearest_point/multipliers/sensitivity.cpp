@@ -80,6 +80,9 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
   const std::vector<bool>& held = choose ? two_sided : loaded;
   NearestPointProblem face{
       problem.A, dz, problem.U.select(tight), Vector(static_cast<Index>(tight.size())), {}};
+  // Rows that depend on each other within their radii do so here; the change is exact.
+  face.radii = select(problem.radii, tight);
+  if (face.radii) face.radii->s.setZero();
   for (std::size_t k = 0; k < tight.size(); ++k) {
     face.s[static_cast<Index>(k)] = ds[tight[k]];
     if (held[static_cast<std::size_t>(tight[k])]) face.two_sided.push_back(static_cast<Index>(k));
