@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "convex/laws/worst_check.hpp"
@@ -253,6 +254,10 @@ LawReport laws_as_it_stands(const convex::NearestPointProblem& problem, const Ga
   if (solution.primal.status == convex::Status::infeasible) {
     convex::NearestPointProblem judged_rows = problem;
     if (solution.as_written) judged_rows.radii.reset();  // decided in fractions on the numbers as written
+    const double largest = problem.s.cwiseAbs().maxCoeff();
+    const double unit = largest > 0 ? std::exp2(std::clamp(std::ilogb(largest), -1000, 1000)) : 1;
+    judged_rows.s /= unit;
+    if (judged_rows.radii) judged_rows.radii->s /= unit;
     return farkas_laws(judged_rows, solution.primal.farkas);
   }
   if (solution.multipliers.least_norm.size() != problem.rows()) return report;
@@ -264,6 +269,57 @@ LawReport laws_as_it_stands(const convex::NearestPointProblem& problem, const Ga
   conjugacy_law(j, report);
   uniqueness_law(j, options, report);
   return report;
+}
+
+LawReport laws_in_units(const convex::NearestPointProblem& problem, const GaussSolution& solution,
+                        const GaussOptions& options) {
+  const Units units = fit_units(problem);
+  if (units.ordinary() || solution.primal.status == convex::Status::infeasible)
+    return laws_as_it_stands(problem, solution, options);
+  GaussSolution given = solution;
+  restore_units(given, units.inverse(), options.accuracy.tolerance);
+  return laws_as_it_stands(in_units(problem, units), given, options);
+}
+
+/// A power of two by row, near its largest entry where that cannot be squared; else 1.
+Vector row_units(const convex::NearestPointProblem& problem) {
+  constexpr double largest_ordinary = 0x1p80;
+  Vector units = Vector::Ones(problem.rows());
+  for (Index a = 0; a < problem.rows(); ++a) {
+    double largest = 0;
+    problem.U.for_each_entry(a, [&](Index, double u) { largest = std::max(largest, std::abs(u)); });
+    if (!(largest > 0) || (largest <= largest_ordinary && largest >= 1 / largest_ordinary)) continue;
+    const double unit = std::ldexp(1, std::clamp(std::ilogb(largest), -1000, 1000));
+    const double s = std::abs(problem.s[a]) / unit;
+    if (s == 0 ? problem.s[a] == 0 : s <= std::numeric_limits<double>::max()) units[a] = unit;
+  }
+  return units;
+}
+
+convex::NearestPointProblem in_row_units(convex::NearestPointProblem problem, const Vector& units) {
+  const auto inverse = units.cwiseInverse().asDiagonal();
+  problem.U = problem.U.is_sparse() ? convex::ConstraintRows(convex::SparseRows(inverse * problem.U.sparse()))
+                                    : convex::ConstraintRows(convex::RowMatrix(inverse * problem.U.dense()));
+  problem.s = problem.s.cwiseQuotient(units);
+  if (problem.radii)
+    problem.radii =
+        convex::DataRadii{problem.radii->row.cwiseQuotient(units), problem.radii->s.cwiseQuotient(units)};
+  return problem;
+}
+
+GaussSolution in_row_units(GaussSolution solution, const Vector& units) {
+  const auto scale = [&](Vector& multipliers) {
+    if (multipliers.size() == units.size()) multipliers = multipliers.cwiseProduct(units);
+  };
+  scale(solution.primal.lambda);
+  scale(solution.multipliers.least_norm);
+  scale(solution.hypothesis.two_sided.multipliers);
+  Vector& w = solution.primal.farkas;
+  scale(w);
+  if (w.size() > 0 && w.cwiseAbs().maxCoeff() > 0) w /= std::exp2(std::ilogb(w.cwiseAbs().maxCoeff()));
+  if (solution.primal.slack.size() == units.size())
+    solution.primal.slack = solution.primal.slack.cwiseQuotient(units);
+  return solution;
 }
 
 }  // namespace
@@ -279,13 +335,10 @@ LawReport gauss_laws(const convex::NearestPointProblem& problem, const GaussSolu
     nothing.no_evidence.emplace_back("of this acceleration: nothing is known of its error");
     return nothing;
   }
-  const Units units = fit_units(problem);
-  if (units.ordinary() || solution.primal.status == convex::Status::infeasible)
-    return laws_as_it_stands(problem, solution, options);
   // Squares of extreme numbers are not doubles: the laws are tried on the same answer where they are.
-  GaussSolution given = solution;
-  restore_units(given, units.inverse(), options.accuracy.tolerance);
-  return laws_as_it_stands(in_units(problem, units), given, options);
+  if (const Vector rows = row_units(problem); !rows.isOnes(0))
+    return laws_in_units(in_row_units(problem, rows), in_row_units(solution, rows), options);
+  return laws_in_units(problem, solution, options);
 }
 
 }  // namespace mechanics

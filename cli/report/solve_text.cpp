@@ -277,7 +277,7 @@ std::string accuracy_text(const SolvedScene& solved) {
   if (primal.status != convex::Status::solved)
     return fmt::format(
         "NOT solved to the accuracy that was asked for; {} reached: {}.{}{}\n", primal.method, accuracy,
-        mechanics::is_at_rounding(primal)
+        mechanics::is_at_rounding(primal) && !primal.is_within(solved.scene.solve.accuracy)
             ? " The tolerance is below the rounding of doubles: ask for a larger one than this."
             : "",
         primal.lambda.allFinite() ? ""
@@ -291,15 +291,18 @@ std::string infeasible_text(const SolvedScene& solved) {
   const convex::Vector& w = solved.solution.primal.farkas;
   std::vector<std::string> parts;
   convex::DoubleDouble sum{0, 0};  // rows may contradict each other by less than a rounding of w·s
+  // Products of numbers near the end of doubles are formed in a unit of s.
+  const double largest = solved.scene.problem.s.cwiseAbs().maxCoeff();
+  const double unit = largest > 0x1p900 ? 0x1p300 : 1;
   for (Index row = 0; row < w.size(); ++row) {
     if (w[row] == 0) continue;
     parts.push_back(fmt::format("{} times {}", number_text(w[row]), solved.scene.contact_name(row)));
-    sum = add(sum, convex::two_product(w[row], solved.scene.problem.s[row]));
+    sum = add(sum, convex::two_product(w[row] / unit, solved.scene.problem.s[row]));
   }
   return fmt::format(
       "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
       "left reads 0 >= {} (Farkas).{}\n",
-      listed(parts), number_text(sum.value()),
+      listed(parts), number_text(sum.value() * unit),
       !is_proved(solved.certificate)                           ? ""
       : solved.certificate->level == convex::ProofLevel::exact ? " Proved in fractions."
                                                                : " Proved with bounds on every rounding.");
