@@ -63,6 +63,18 @@ bool is_decided_by_text(mechanics::GaussSolution& solution, const Scene& scene,
   }
 }
 
+/// Whether rows of a contradiction are not the doubles themselves.
+bool rests_on_rounded_rows(const convex::NearestPointProblem& problem,
+                           const mechanics::GaussSolution& found) {
+  const convex::Vector& w = found.primal.farkas;
+  if (found.as_written || !problem.radii || found.primal.status != convex::Status::infeasible ||
+      w.size() != problem.rows())
+    return false;
+  for (convex::Index a = 0; a < w.size(); ++a)
+    if (w[a] != 0 && problem.radii->row[a] > 0) return true;
+  return false;
+}
+
 }  // namespace
 
 mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::GaussOptions& options) {
@@ -77,6 +89,11 @@ mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::Gaus
     mechanics::leave_out_pressing(found.touching, scene.problem, found.primal, found.multipliers,
                                   convex::Vector::Zero(scene.problem.dimension()));
   mechanics::decide_on_exact_data(found, scene.problem, options, [&] { return numbers_as_written(scene); });
+  // Rows that other numbers within their radii would not let contradict each other are asked of the text.
+  if (is_default(options) && rests_on_rounded_rows(scene.problem, found))
+    if (mechanics::GaussSolution exact;
+        is_decided_by_text(exact, scene, options, convex::open_question::dependence))
+      return exact;
   if (!found.as_written && !scene.written && !scene.exact.are_doubles)
     mechanics::count_rounding_of_data(found, scene.problem, options, scene.exact.make);
   return found;
