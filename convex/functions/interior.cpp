@@ -11,6 +11,7 @@ bool is_well_inside(const Function& f, const Vector& x, double size) {
   constexpr Index most_entries = 64;
   if (x.size() > most_entries) return false;
   const double step = far_more * std::sqrt(static_cast<double>(x.size())) * size;
+  if (!std::isfinite(x.norm() + step)) return false;
   for (Index i = 0; i < x.size(); ++i)
     for (const double side : {-step, step})
       if (!std::isfinite(f(x + side * Vector::Unit(x.size(), i)))) return false;

@@ -81,3 +81,14 @@ TEST_CASE("the distance of a point is told, however near 0 it is, to a set that 
       CHECK(found.error <= 1e-11);
     }
 }
+
+TEST_CASE("the distance to a set without an end is 0 at its points, alone and in an inf-convolution") {
+  const char* half_line = "distance(polyhedron([[3],[0.5]],[2,2]),3)";
+  const convex::Function f = samples::function(half_line, 1);
+  for (const double x : {-1e6, -13.741, 0.0, 0.5}) CHECK(f(Vector::Constant(1, x)) == 0);
+  CHECK(f(Vector::Constant(1, 1)) == doctest::Approx(1).epsilon(1e-12));
+  // Points of the half line and of the other meet at every sum.
+  const convex::Function sum = samples::function(
+      "inf_convolution(" + std::string(half_line) + ",envelope(indicator(orthant()),1))", 1);
+  for (const double x : {-13.741, 0.0, 13.741}) CHECK(std::abs(sum(Vector::Constant(1, x))) <= 1e-9);
+}
