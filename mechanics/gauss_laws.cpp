@@ -133,7 +133,8 @@ void balance_law(const Judged& j, LawReport& report) {
       convex::stationarity_residual(j.problem, convex::DoubleDoubleVector(j.q()), rows, lambda);
   // Parts of dependent rows in each other below 64 roundings are left out of the least norm.
   constexpr double of_dependences = 2 * 64 * unit_roundoff;
-  const double of_loads = roundings + (j.solution.multipliers.unique ? 0 : of_dependences);
+  const double of_loads =
+      roundings + (j.solution.multipliers.unique ? 0 : of_dependences * std::sqrt(j.steps()));
   report.checks.push_back(check_that("A q'' = z + sum of lambda_a u_a", j.problem.A.dual_norm(rest),
                                      j.error() + roundings * j.size + of_loads * loads));
 }
