@@ -237,7 +237,7 @@ std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::Gau
       is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning))
     return std::nullopt;
   if (solution.primal.status == convex::Status::solved)
-    mechanics::touch_within_error(solution, scene.problem);
+    mechanics::touch_within_error(solution, scene.problem, solution.primal.error_bound);
   return as_evaluated;
 }
 
@@ -263,7 +263,11 @@ ProvedScene resolve_and_prove(Scene& scene, bool certify) {
   }
   if (found.certificate.level == convex::ProofLevel::enclosure && scene.written &&
       found.solution.primal.status == convex::Status::solved)
-    mechanics::touch_within_error(found.solution, scene.problem);
+    mechanics::touch_within_error(
+        found.solution, scene.problem,
+        found.solution.primal.error_bound +
+            mechanics::evaluation_error(*scene.written, scene.contacts, scene.added, scene.problem,
+                                        found.solution.primal, scene.solve.accuracy));
   return resolved;
 }
 

@@ -148,7 +148,7 @@ void leave_out_opening(GaussSolution& found, const convex::NearestPointProblem& 
   std::erase_if(found.multipliers.tight, is_open);
 }
 
-void touch_within_error(GaussSolution& found, const convex::NearestPointProblem& problem) {
+void touch_within_error(GaussSolution& found, const convex::NearestPointProblem& problem, double of_forces) {
   convex::Multipliers& multipliers = found.multipliers;
   std::vector<bool> touches = convex::marked(problem.rows(), found.touching),
                     is_tight = convex::marked(problem.rows(), multipliers.tight);
@@ -158,14 +158,19 @@ void touch_within_error(GaussSolution& found, const convex::NearestPointProblem&
   const Vector length = convex::dual_lengths(problem, rows);
   for (const Index a : rows) {
     const auto k = static_cast<std::size_t>(a);
-    const double error = length[a] * found.primal.error_bound;
     if (!is_tight[k]) {
-      touches[k] = is_tight[k] = found.primal.slack[a] <= error;
+      touches[k] = is_tight[k] = found.primal.slack[a] <= length[a] * found.primal.error_bound;
     } else if (multipliers.unique || multipliers.ranges) {
       const double most = multipliers.unique ? multipliers.least_norm[a] : (*multipliers.ranges)[k].high;
-      touches[k] = most * length[a] <= found.primal.error_bound;
+      touches[k] = most * length[a] <= of_forces;
     }
+    if (!touches[k]) continue;
+    multipliers.least_norm[a] = 0;
+    if (multipliers.ranges) (*multipliers.ranges)[k] = {0, 0};
   }
+  if (!multipliers.unique && multipliers.ranges)
+    multipliers.unique = std::all_of(multipliers.ranges->begin(), multipliers.ranges->end(),
+                                     [](const convex::Interval& range) { return range.low == range.high; });
   found.touching.clear();
   multipliers.tight.clear();
   for (Index a = 0; a < problem.rows(); ++a) {

@@ -29,9 +29,10 @@ void leave_out_pressing(GaussSolution&, const WrittenMechanism&, const std::vect
 /// elsewhere.
 void leave_out_opening(GaussSolution&, const convex::NearestPointProblem&, double tolerance);
 
-/// One-sided contacts that press, or open, by no more than what the error bound makes of it count as
-/// touching: all that is known is that they may. Where all contacts are tight then, the answer is the motion
-/// with every contact held, too.
-void touch_within_error(GaussSolution&, const convex::NearestPointProblem&);
+/// One-sided contacts that open by no more than what the error bound makes of it, or press by no more than
+/// `of_forces`, what is not known of the forces in ||·||_(A⁻¹), count as touching without a multiplier: all
+/// that is known is that they may. Where all contacts are tight then, the answer is the motion with every
+/// contact held, too.
+void touch_within_error(GaussSolution&, const convex::NearestPointProblem&, double of_forces);
 
 }  // namespace mechanics
