@@ -100,6 +100,13 @@ class MultiplierTableau {
     else
       return sign(x) == 0;
   }
+  /// Of a multiplier that is >= 0; what is not a number is not known to be 0.
+  bool is_zero_value(const Number& x) const {
+    if constexpr (is_rounded)
+      return x <= value_noise_;
+    else
+      return sign(x) == 0;
+  }
   /// Whether x > 0 beyond rounding.
   bool is_positive(const Number& x) const {
     if constexpr (is_rounded) {
@@ -162,7 +169,7 @@ class MultiplierTableau {
   void note_vertex() {
     for (const Index name : now_.nonbasic) vanishes_[at(name)] = vanishes_[at(name)] || !is_free(name);
     for (std::size_t k = 0; k < now_.basic.size(); ++k)
-      if (!is_free(now_.basic[k]) && !(value_noise_ < now_.value[k])) vanishes_[at(now_.basic[k])] = true;
+      if (!is_free(now_.basic[k]) && is_zero_value(now_.value[k])) vanishes_[at(now_.basic[k])] = true;
   }
 
   /// What multipliers grow with nonbasic column `column`, which nothing blocks.
