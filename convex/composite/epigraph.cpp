@@ -36,6 +36,8 @@ class EpigraphAtom final : public Atom {
   }
   double value(const Vector& z) const override {
     if (inside(z)) return 0;
+    // A step of a search too far out is no point of the set.
+    if (!z.allFinite()) return std::numeric_limits<double>::infinity();
     const double miss = (z - project(z).point).norm();
     return miss <= membership_tolerance * z.norm() ? 0 : std::numeric_limits<double>::infinity();
   }

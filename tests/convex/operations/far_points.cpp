@@ -33,6 +33,10 @@ const Question questions[] = {
     {"translate(scale(perspective(logistic()), 0.0009765625), [3,2])", {-2e8, 1e8}, {4, 0, 0, 4}},
     {"perspective(quadratic([[9,-6,9],[-6,4,-6],[9,-6,9]], [3,3,3]))", {1, 1, 1e-6, -3}, {}},
     {"scale(scale(quadratic([[4,-6],[-6,9]], [1,1]), 1024), 2)", {-3, -3e8}, {}},
+    {"pointwise_max(tilt(translate(total_variation(3), [0,3,0,0.5]), [0,-3,1,0]), "
+     "indicator(epigraph(sum(expm1(2), max()))))",
+     {30223.241, -34008.046, 9930.502, 3},
+     {2, 0, 1.25, 0.5, 0, 2.75, 0.75, -0.5, 1.25, 0.75, 3.5, 0.5, 0.5, -0.5, 0.5, 1.75}},
     {"precompose(log_barrier(), [[-3,2,-1],[-3,2,2],[-3,-1,1]], [-1,3,-2])",
      {-3e8, -3e8, -3e8},
      {4, 0, -2, 0, 9, 6, -2, 6, 14}},
