@@ -198,6 +198,12 @@ std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
 
 namespace {
 
+/// What is not known of the forces.
+double force_error(const Scene& scene, const mechanics::GaussSolution& solution) {
+  return solution.primal.error_bound +
+         mechanics::force_error(*scene.written, scene.contacts, scene.problem, solution);
+}
+
 /// Whether the error of the answer leaves open what becomes of a one-sided contact: that it opens, or
 /// presses. It is not asked where a text has too many coordinates to decide.
 bool leaves_contacts_open(const Scene& scene, const mechanics::GaussSolution& solution) {
@@ -214,19 +220,25 @@ bool leaves_contacts_open(const Scene& scene, const mechanics::GaussSolution& so
       rows.push_back(a);
   const convex::Vector length = convex::dual_lengths(scene.problem, rows);
   const convex::Multipliers& multipliers = solution.multipliers;
+  const double of_forces = force_error(scene, solution);
   return std::any_of(rows.begin(), rows.end(), [&](convex::Index a) {
-    if (!std::binary_search(multipliers.tight.begin(), multipliers.tight.end(), a))
-      return answer.slack[a] <= length[a] * answer.error_bound;
+    if (!std::binary_search(multipliers.tight.begin(), multipliers.tight.end(), a)) {
+      double small = length[a] * answer.error_bound;
+      if (const auto& radii = scene.problem.radii)
+        small += radii->s[a] + radii->row[a] * answer.acceleration_norm;
+      return answer.slack[a] <= small;
+    }
     if (!multipliers.unique && !multipliers.ranges) return false;
     const double most = multipliers.unique ? multipliers.least_norm[a]
                                            : (*multipliers.ranges)[static_cast<std::size_t>(a)].high;
-    return most * length[a] <= answer.error_bound;
+    return most * length[a] <= of_forces;
   });
 }
 
 }  // namespace
 
 std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::GaussSolution& solution) {
+  if (!scene.written) return std::nullopt;
   const bool was_solved = solution.primal.status == convex::Status::solved;
   const std::optional<double> as_evaluated = count_evaluation_error(scene, solution);
   if (!was_solved ||
@@ -237,7 +249,7 @@ std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::Gau
       is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning))
     return std::nullopt;
   if (solution.primal.status == convex::Status::solved)
-    mechanics::touch_within_error(solution, scene.problem, solution.primal.error_bound);
+    mechanics::touch_within_error(solution, scene.problem, force_error(scene, solution));
   return as_evaluated;
 }
 
@@ -262,12 +274,10 @@ ProvedScene resolve_and_prove(Scene& scene, bool certify) {
     nothing();
   }
   if (found.certificate.level == convex::ProofLevel::enclosure && scene.written &&
-      found.solution.primal.status == convex::Status::solved)
-    mechanics::touch_within_error(
-        found.solution, scene.problem,
-        found.solution.primal.error_bound +
-            mechanics::evaluation_error(*scene.written, scene.contacts, scene.added, scene.problem,
-                                        found.solution.primal, scene.solve.accuracy));
+      found.solution.primal.status == convex::Status::solved) {
+    mechanics::leave_out_opening(found.solution, scene.problem, scene.solve.accuracy.tolerance);
+    mechanics::touch_within_error(found.solution, scene.problem, force_error(scene, found.solution));
+  }
   return resolved;
 }
 

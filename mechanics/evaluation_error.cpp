@@ -132,6 +132,13 @@ void leave_out_pressing(GaussSolution& found, const WrittenMechanism& written,
   leave_out_pressing(found.touching, problem, found.primal, found.multipliers, left.balance);
 }
 
+double force_error(const WrittenMechanism& written, const std::vector<Index>& contacts,
+                   const convex::NearestPointProblem& problem, const GaussSolution& found) {
+  const LeftOfEquations left =
+      left_of_equations(written, contacts, {}, problem, found.primal.q, found.multipliers.least_norm);
+  return convex::largest_move(problem.A, left.balance);
+}
+
 void leave_out_opening(GaussSolution& found, const convex::NearestPointProblem& problem, double tolerance) {
   const convex::Solution& primal = found.primal;
   const Vector length = convex::dual_lengths(problem, found.touching), magnitude = primal.q.cwiseAbs();
@@ -159,7 +166,10 @@ void touch_within_error(GaussSolution& found, const convex::NearestPointProblem&
   for (const Index a : rows) {
     const auto k = static_cast<std::size_t>(a);
     if (!is_tight[k]) {
-      touches[k] = is_tight[k] = found.primal.slack[a] <= length[a] * found.primal.error_bound;
+      double small = length[a] * found.primal.error_bound;
+      if (problem.radii)
+        small += problem.radii->s[a] + problem.radii->row[a] * found.primal.acceleration_norm;
+      touches[k] = is_tight[k] = found.primal.slack[a] <= small;
     } else if (multipliers.unique || multipliers.ranges) {
       const double most = multipliers.unique ? multipliers.least_norm[a] : (*multipliers.ranges)[k].high;
       touches[k] = most * length[a] <= of_forces;

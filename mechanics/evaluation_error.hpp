@@ -24,6 +24,11 @@ void count_evaluation_error(convex::Solution&, double error, const convex::Accur
 void leave_out_pressing(GaussSolution&, const WrittenMechanism&, const std::vector<Index>& contacts,
                         const convex::NearestPointProblem&);
 
+/// What rounding of A, z and U leaves unknown of the forces at the answer, z + Σ lambda_a u_a - A q'', in
+/// ||·||_(A⁻¹).
+double force_error(const WrittenMechanism&, const std::vector<Index>& contacts,
+                   const convex::NearestPointProblem&, const GaussSolution&);
+
 /// Of the contacts that touch, those stay whose slack may be 0 for all that the error bound, the radii of
 /// rows and `tolerance`, relative to the terms of the row alone, tell. The others open, whatever is pushed
 /// elsewhere.

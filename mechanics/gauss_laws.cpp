@@ -194,10 +194,11 @@ void nearest_reaction_law(const Judged& j, LawReport& report) {
   for (Index a = 0; a < j.problem.rows(); ++a) {
     const bool both_ways = j.is_two_sided(a) || j.lambda()[a] > 0;
     if (both_ways || apart[a] > 0) {
-      const double bound =
-          2 * j.row[a] + roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() *
-                             (j.problem.U.absolute_dot(a, magnitude) +
-                              j.length[a] * (j.size + j.problem.A.norm(two_sided.acceleration)));
+      const double length = j.length[a] > 0 ? j.length[a] : j.problem.A.dual_norm(j.problem.U.row(a));
+      const double bound = 2 * (j.row[a] + length * j.error()) +
+                           roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() *
+                               (j.problem.U.absolute_dot(a, magnitude) +
+                                length * (j.size + j.problem.A.norm(two_sided.acceleration)));
       nearest.take(both_ways ? std::abs(apart[a]) : apart[a], bound);
     }
   }

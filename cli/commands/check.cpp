@@ -68,12 +68,9 @@ Answer check_scene(Scene scene, const CheckOptions& options) {
       });
   if (auto violated = violated_at_higher_order(scene, solution)) warnings.push_back(*std::move(violated));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  // Laws judge the answer by its bound before the rounding of A, z, U, s makes it wider.
-  const mechanics::GaussSolution evaluated = solution;
   const std::optional<double> as_evaluated = settle_evaluation_error(scene, solution);
-  const mechanics::GaussSolution& judged = solution.as_written ? solution : evaluated;
   const convex::LawReport report =
-      mechanics::gauss_laws(judged.data ? *judged.data : scene.problem, judged, scene.solve);
+      mechanics::gauss_laws(solution.data ? *solution.data : scene.problem, solution, scene.solve);
   SolvedScene solved = solved_scene(scene, solution, seconds);
   solved.as_evaluated = as_evaluated;
   solved.warnings = std::move(warnings);

@@ -170,3 +170,39 @@ TEST_CASE("a condition that no coordinate has a part in is decided as written") 
     }
   }
 }
+
+TEST_CASE(
+    "what is within the rounding of z or s presses and opens nothing, proved or not, and no law fails") {
+  const Folder folder;
+  // s = 0.3 - (0.1 + 0.2) is 0, not 1.1e-16, and the masses are irrational: x'' = 0.
+  const std::string rest = folder.write(
+      "rest.toml",
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2 + cos(0.7)*x'^2\"\n[system.constraints]\n"
+      "a = \"x >= 0.3*t^2 - (0.1 + 0.2)*t^2\"\nb = \"x <= 0\"\n[state]\nposition = { x = 0 }\n");
+  CHECK(run({"check", rest}).code == 0);
+  CHECK(Json::parse(run({"solve", "--json", rest}).out)["hypothesis"]["accepted"] == true);
+  // Three contacts leave x0 = x1 = 0 alone.
+  const std::string held = folder.write(
+      "held.toml",
+      "[system]\ncoordinates = [\"x0\", \"x1\"]\nkinetic = \"x1'^2 + cos(0.7)*x0'^2\"\n[system.forces]\n"
+      "x1 = -9.81\n[system.constraints]\nc0 = \"-2*x1 >= 0.3*t^2 - (0.1 + 0.2)*t^2\"\n"
+      "c3 = \"1000*(3*x0 + (1/2)*x1) >= 0\"\n"
+      "close = \"(1/2)*x1 - (3/2)*x0 - (1/2)*x1 >= 0.3*t^2 - (0.1 + 0.2)*t^2\"\n[state]\n"
+      "position = { x0 = 0, x1 = 0 }\n");
+  // A slack of 6e-12 that is all its own terms, proved to 2e-29.
+  const std::string light = folder.write(
+      "light.toml",
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"4.15*(x' + sqrt(2)*y')^2 + 3.05*y'^2\"\n"
+      "[system.forces]\nx = 1e-10\ny = -50\n[system.constraints]\nc5 = \"tan(pi/7)*x >= 0\"\nc8 = \"y = 0\"\n"
+      "[state]\nposition = { x = 0, y = 0 }\n");
+  for (const bool certify : {false, true}) {
+    CAPTURE(certify);
+    const auto state = [&](const std::string& file, const char* contact) {
+      const Outcome outcome =
+          certify ? run({"solve", "--json", "--certify", file}) : run({"solve", "--json", file});
+      return Json::parse(outcome.out)["constraints"][contact]["state"].get<std::string>();
+    };
+    CHECK(state(held, "c0") != "opens");
+    CHECK(state(light, "c5") == "opens");
+  }
+}
