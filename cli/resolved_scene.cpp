@@ -241,15 +241,15 @@ std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::Gau
   if (!scene.written) return std::nullopt;
   const bool was_solved = solution.primal.status == convex::Status::solved;
   const std::optional<double> as_evaluated = count_evaluation_error(scene, solution);
-  if (!was_solved ||
-      (solution.primal.status == convex::Status::solved && !leaves_contacts_open(scene, solution)))
-    return as_evaluated;
-  if (!scene.added.empty()) return as_evaluated;
-  if (is_default(scene.solve) &&
-      is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning))
-    return std::nullopt;
-  if (solution.primal.status == convex::Status::solved)
-    mechanics::touch_within_error(solution, scene.problem, force_error(scene, solution));
+  if (!was_solved || !scene.added.empty()) return as_evaluated;
+  const bool is_solved = solution.primal.status == convex::Status::solved;
+  if (!is_solved || leaves_contacts_open(scene, solution)) {
+    if (is_default(scene.solve) &&
+        is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning))
+      return std::nullopt;
+    if (is_solved) mechanics::touch_within_error(solution, scene.problem, force_error(scene, solution));
+  }
+  if (is_solved) mechanics::accept_where_all_hold(solution, scene.problem);
   return as_evaluated;
 }
 
@@ -277,6 +277,7 @@ ProvedScene resolve_and_prove(Scene& scene, bool certify) {
       found.solution.primal.status == convex::Status::solved) {
     mechanics::leave_out_opening(found.solution, scene.problem, scene.solve.accuracy.tolerance);
     mechanics::touch_within_error(found.solution, scene.problem, force_error(scene, found.solution));
+    mechanics::accept_where_all_hold(found.solution, scene.problem);
   }
   return resolved;
 }

@@ -187,6 +187,10 @@ void touch_within_error(GaussSolution& found, const convex::NearestPointProblem&
     if (touches[static_cast<std::size_t>(a)]) found.touching.push_back(a);
     if (is_tight[static_cast<std::size_t>(a)]) multipliers.tight.push_back(a);
   }
+}
+
+void accept_where_all_hold(GaussSolution& found, const convex::NearestPointProblem& problem) {
+  const convex::Multipliers& multipliers = found.multipliers;
   if (static_cast<Index>(multipliers.tight.size()) != problem.rows() || found.hypothesis.accepted) return;
   found.hypothesis = {};
   found.hypothesis.accepted = true;

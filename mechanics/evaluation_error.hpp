@@ -36,8 +36,11 @@ void leave_out_opening(GaussSolution&, const convex::NearestPointProblem&, doubl
 
 /// One-sided contacts that open by no more than what the error bound makes of it, or press by no more than
 /// `of_forces`, what is not known of the forces in ||·||_(A⁻¹), count as touching without a multiplier: all
-/// that is known is that they may. Where all contacts are tight then, the answer is the motion with every
-/// contact held, too.
+/// that is known is that they may.
 void touch_within_error(GaussSolution&, const convex::NearestPointProblem&, double of_forces);
+
+/// Where all contacts are tight, the answer is the motion with every contact held, too, and the hypothesis is
+/// accepted, whatever rounding made of its own equations.
+void accept_where_all_hold(GaussSolution&, const convex::NearestPointProblem&);
 
 }  // namespace mechanics
