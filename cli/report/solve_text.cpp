@@ -291,18 +291,18 @@ std::string infeasible_text(const SolvedScene& solved) {
   const convex::Vector& w = solved.solution.primal.farkas;
   std::vector<std::string> parts;
   convex::DoubleDouble sum{0, 0};  // rows may contradict each other by less than a rounding of w·s
-  // Products of numbers near the end of doubles are formed in a unit of s.
-  const double largest = solved.scene.problem.s.cwiseAbs().maxCoeff();
-  const double unit = largest > 0x1p900 ? 0x1p300 : 1;
+  // Halves of numbers near the end of doubles are formed in units of w and of s.
+  const auto unit = [](const convex::Vector& x) { return x.cwiseAbs().maxCoeff() > 0x1p900 ? 0x1p300 : 1.0; };
+  const double of_w = unit(w), of_s = unit(solved.scene.problem.s);
   for (Index row = 0; row < w.size(); ++row) {
     if (w[row] == 0) continue;
     parts.push_back(fmt::format("{} times {}", number_text(w[row]), solved.scene.contact_name(row)));
-    sum = add(sum, convex::two_product(w[row] / unit, solved.scene.problem.s[row]));
+    sum = add(sum, convex::two_product(w[row] / of_w, solved.scene.problem.s[row] / of_s));
   }
   return fmt::format(
       "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
       "left reads 0 >= {} (Farkas).{}\n",
-      listed(parts), number_text(sum.value() * unit),
+      listed(parts), number_text(sum.value() * of_w * of_s),
       !is_proved(solved.certificate)                           ? ""
       : solved.certificate->level == convex::ProofLevel::exact ? " Proved in fractions."
                                                                : " Proved with bounds on every rounding.");
