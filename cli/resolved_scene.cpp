@@ -222,12 +222,8 @@ bool leaves_contacts_open(const Scene& scene, const mechanics::GaussSolution& so
   const convex::Multipliers& multipliers = solution.multipliers;
   const double of_forces = force_error(scene, solution);
   return std::any_of(rows.begin(), rows.end(), [&](convex::Index a) {
-    if (!std::binary_search(multipliers.tight.begin(), multipliers.tight.end(), a)) {
-      double small = length[a] * answer.error_bound;
-      if (const auto& radii = scene.problem.radii)
-        small += radii->s[a] + radii->row[a] * answer.acceleration_norm;
-      return answer.slack[a] <= small;
-    }
+    if (!std::binary_search(multipliers.tight.begin(), multipliers.tight.end(), a))
+      return answer.slack[a] <= mechanics::hidden_slack(scene.problem, answer, a, length[a]);
     if (!multipliers.unique && !multipliers.ranges) return false;
     const double most = multipliers.unique ? multipliers.least_norm[a]
                                            : (*multipliers.ranges)[static_cast<std::size_t>(a)].high;

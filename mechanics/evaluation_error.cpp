@@ -139,13 +139,19 @@ double force_error(const WrittenMechanism& written, const std::vector<Index>& co
   return convex::largest_move(problem.A, left.balance);
 }
 
+double hidden_slack(const convex::NearestPointProblem& problem, const convex::Solution& solution, Index a,
+                    double length) {
+  const double moved = length * solution.error_bound;
+  if (!problem.radii) return moved;
+  return moved + problem.radii->s[a] + problem.radii->row[a] * solution.acceleration_norm;
+}
+
 void leave_out_opening(GaussSolution& found, const convex::NearestPointProblem& problem, double tolerance) {
   const convex::Solution& primal = found.primal;
   const Vector length = convex::dual_lengths(problem, found.touching), magnitude = primal.q.cwiseAbs();
   const auto opens = [&](Index a) {
-    double small = tolerance * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)) +
-                   length[a] * primal.error_bound;
-    if (problem.radii) small += problem.radii->s[a] + problem.radii->row[a] * primal.acceleration_norm;
+    const double small = tolerance * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)) +
+                         hidden_slack(problem, primal, a, length[a]);
     return found.multipliers.least_norm[a] == 0 && primal.slack[a] > small;
   };
   std::vector<Index> open;
@@ -166,10 +172,7 @@ void touch_within_error(GaussSolution& found, const convex::NearestPointProblem&
   for (const Index a : rows) {
     const auto k = static_cast<std::size_t>(a);
     if (!is_tight[k]) {
-      double small = length[a] * found.primal.error_bound;
-      if (problem.radii)
-        small += problem.radii->s[a] + problem.radii->row[a] * found.primal.acceleration_norm;
-      touches[k] = is_tight[k] = found.primal.slack[a] <= small;
+      touches[k] = is_tight[k] = found.primal.slack[a] <= hidden_slack(problem, found.primal, a, length[a]);
     } else if (multipliers.unique || multipliers.ranges) {
       const double most = multipliers.unique ? multipliers.least_norm[a] : (*multipliers.ranges)[k].high;
       touches[k] = most * length[a] <= of_forces;

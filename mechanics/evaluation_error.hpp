@@ -29,6 +29,9 @@ void leave_out_pressing(GaussSolution&, const WrittenMechanism&, const std::vect
 double force_error(const WrittenMechanism&, const std::vector<Index>& contacts,
                    const convex::NearestPointProblem&, const GaussSolution&);
 
+/// What the error bound and the radii of row a leave unknown of its slack; length: ||u_a||_(A⁻¹).
+double hidden_slack(const convex::NearestPointProblem&, const convex::Solution&, Index a, double length);
+
 /// Of the contacts that touch, those stay whose slack may be 0 for all that the error bound, the radii of
 /// rows and `tolerance`, relative to the terms of the row alone, tell. The others open, whatever is pushed
 /// elsewhere.
