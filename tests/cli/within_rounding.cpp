@@ -118,6 +118,16 @@ TEST_CASE("contacts whose gradients are one as written share a force, whatever m
 TEST_CASE("a slack that rounding hides moves the acceleration by itself over what its gradient leaves") {
   // -y'' >= 11 and 1e-6 x'' + y'' >= -11 + 1e-6 + 8e-16: x'' = 1 + 8e-10.
   const Folder folder;
+  // Where fractions do not tell, the bound counts it.
+  const std::string irrational = folder.write(
+      "irrational.toml",
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + cos(0.3)*y'^2)/2\"\n[system.forces]\nx = "
+      "1\n"
+      "y = -10\n[system.constraints]\na = \"-y >= 11*t^2/2\"\n"
+      "b = \"1e-6*x + y >= (-11 + 1e-6 + 8e-16)*t^2/2\"\n[state]\nposition = { x = 0, y = 0 }\n");
+  const Json open = Json::parse(run({"solve", "--json", irrational}).out);
+  CHECK(std::abs(open["acceleration"]["x"].get<double>() - (1 + 8e-10)) <=
+        open["certificate"]["error_bound"].get<double>() + 1e-15);
   const std::string file = folder.write(
       "hidden.toml",
       "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n[system.forces]\nx = 1\n"
