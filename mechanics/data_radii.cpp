@@ -4,7 +4,6 @@
 
 #include "convex/infinity.hpp"
 #include "mechanics/exact_text.hpp"
-#include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
 #include "mechanics/expression/state_nodes.hpp"
@@ -32,23 +31,6 @@ Vector radii_of_values(const std::vector<NodeId>& nodes, const std::vector<Round
     radii[k] = known(number.radius + std::abs(number.value - values[k]));
   }
   return radii;
-}
-
-/// The radii of a table of the state; what is missing there is 0, and exact.
-Vector table_radii(const LagrangianModel& model, const std::vector<NamedText>& texts,
-                   const std::string& table, Rounded t, const Vector& values) {
-  Sources sources;
-  Tape tape;
-  Expansion expansion(model.meanings, tape);
-  const auto& families = model.meanings.coordinate_families;
-  const Assignment given = assign_to_coordinates(texts, table, table + " of ", model.names, families,
-                                                 Vocabulary::system, sources, expansion);
-  std::vector<NodeId> nodes(model.coordinates.size(), no_node);
-  for (const Family& family : families)
-    for (std::uint32_t member = 0; member < family.members.size(); ++member)
-      if (const std::uint32_t entry = given.entry_of[family.first + member]; entry != no_entry)
-        nodes[family.first + member] = expansion.node(given.entries[entry].value, family.members[member]);
-  return radii_of_values(nodes, rounded_nodes(tape, t), values);
 }
 
 /// The numbers by whose signs a program takes its branches, where rounding leaves the sign open.
@@ -199,26 +181,12 @@ void add_contacts(const LagrangianModel& model, const RoundedState& state,
 StateRadii state_radii(const LagrangianSystem& system, const StateText& text, const State& state) {
   const LagrangianModel& model = system.model();
   StateRadii radii;
-  Rounded t = 0;
-  if (text.t) {
-    Sources sources;
-    Tape tape;
-    Expansion expansion(model.meanings, tape);
-    const Source& source = sources.add(*text.t, "t of the state");
-    const NodeId node = expansion.node(parse_expression(source, {&model.names, Vocabulary::system, {}}), {});
-    t = rounded_nodes(tape)[node];
-    radii.t = t.radius = known(t.radius + std::abs(t.value - state.t));
-    t.value = state.t;
-  }
-  if (refers_to_state(model, text)) {
-    const StateNodes nodes = state_nodes(model, text);
-    const std::vector<Rounded> numbers = rounded_nodes(nodes.tape, t);
-    radii.q = radii_of_values(nodes.q, numbers, state.q);
-    radii.v = radii_of_values(nodes.v, numbers, state.v);
-  } else {
-    radii.q = table_radii(model, text.position, "position", t, state.q);
-    radii.v = table_radii(model, text.velocity, "velocity", t, state.v);
-  }
+  const StateNodes nodes = state_nodes(model, text);
+  const std::vector<Rounded> numbers = rounded_nodes(nodes.tape);
+  if (nodes.t != no_node)
+    radii.t = known(numbers[nodes.t].radius + std::abs(numbers[nodes.t].value - state.t));
+  radii.q = radii_of_values(nodes.q, numbers, state.q);
+  radii.v = radii_of_values(nodes.v, numbers, state.v);
   radii.conditions = conditions_as_written(system, text, rounded_state(state, radii));
   return radii;
 }

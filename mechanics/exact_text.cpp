@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/exact_jet.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/state_nodes.hpp"
@@ -19,64 +18,22 @@ using convex::ExactRows;
 using convex::Fraction;
 using convex::Matrix;
 
-/// The values of a table of the state; false where one cannot be had. What is missing stays.
-bool read_values(const LagrangianModel& model, const std::vector<NamedText>& texts, const std::string& table,
-                 const Number& t, long precision, std::vector<Number>& values) {
-  Sources sources;
-  Tape tape;
-  Expansion expansion(model.meanings, tape);
-  const auto& families = model.meanings.coordinate_families;
-  // As nodes, not as numbers; what may stand in a state has been checked when the doubles were read.
-  const Assignment given = assign_to_coordinates(texts, table, table + " of ", model.names, families,
-                                                 Vocabulary::system, sources, expansion);
-  const ExactState instant{t, {}, {}};
-  ExactEvaluation evaluate(tape, instant, precision, JetPart::rates);
-  for (const Family& family : families)
-    for (std::uint32_t member = 0; member < family.members.size(); ++member) {
-      const std::uint32_t entry = given.entry_of[family.first + member];
-      if (entry == no_entry) continue;
-      const NodeId node = expansion.node(given.entries[entry].value, family.members[member]);
-      const auto& jet = evaluate(node);
-      if (!jet) return false;
-      values[family.first + member] = jet->value;
-    }
-  return true;
-}
-
-/// Values that use each other.
-std::optional<ExactState> read_nodes_exactly(const StateNodes& nodes, long precision, ExactState state) {
-  const ExactState instant{state.t, {}, {}};
-  ExactEvaluation evaluate(nodes.tape, instant, precision, JetPart::rates);
-  for (std::size_t i = 0; i < nodes.q.size(); ++i)
-    for (const auto& [node, to] : {std::pair{nodes.q[i], &state.q[i]}, std::pair{nodes.v[i], &state.v[i]}}) {
-      if (node == no_node) continue;
-      const auto& jet = evaluate(node);
-      if (!jet) return std::nullopt;
-      *to = jet->value;
-    }
-  return state;
-}
-
 std::optional<ExactState> read_state_exactly(const LagrangianModel& model, const StateText& text,
                                              long precision) {
-  const std::size_t n = model.coordinates.size();
+  const StateNodes nodes = state_nodes(model, text);
+  const std::size_t n = nodes.q.size();
   ExactState state{{}, std::vector<Number>(n), std::vector<Number>(n)};
-  if (text.t) {
-    Sources sources;
-    Tape tape;
-    Expansion expansion(model.meanings, tape);
-    const Source& source = sources.add(*text.t, "t of the state");
-    const NodeId node = expansion.node(parse_expression(source, {&model.names, Vocabulary::system, {}}), {});
-    const ExactState nothing;
-    ExactEvaluation evaluate(tape, nothing, precision);
+  const ExactState nothing;
+  ExactEvaluation evaluate(nodes.tape, nothing, precision, JetPart::rates);
+  const auto read = [&](NodeId node, Number& to) {
+    if (node == no_node) return true;
     const auto& jet = evaluate(node);
-    if (!jet) return std::nullopt;
-    state.t = jet->value;
-  }
-  if (refers_to_state(model, text)) return read_nodes_exactly(state_nodes(model, text), precision, state);
-  if (!read_values(model, text.position, "position", state.t, precision, state.q) ||
-      !read_values(model, text.velocity, "velocity", state.t, precision, state.v))
-    return std::nullopt;
+    if (jet) to = jet->value;
+    return jet.has_value();
+  };
+  if (!read(nodes.t, state.t)) return std::nullopt;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!read(nodes.q[i], state.q[i]) || !read(nodes.v[i], state.v[i])) return std::nullopt;
   return state;
 }
 

@@ -36,22 +36,6 @@ bool is_small_integer(const Tape& tape, NodeId node) {
   }
 }
 
-/// The sign of a constant as written; none where that does not tell.
-std::optional<int> sign_as_written(const Tape& tape, NodeId node) {
-  const double x = tape.constant(node);
-  if (std::isnan(x) || is_small_integer(tape, node)) return x < 0 ? -1 : x > 0 ? 1 : 0;
-  constexpr long precisions[] = {0, 512};  // bits; fractions first
-  const ExactState nothing;
-  for (const long precision : precisions) {
-    if (precision != 0 && !convex::Ball::why_none().empty()) break;
-    ExactEvaluation evaluate(tape, nothing, precision, JetPart::rates);
-    const auto& jet = evaluate(node);
-    if (!jet || !jet->value.is_finite()) continue;
-    if (const auto sign = jet->value.sign()) return sign;
-  }
-  return std::nullopt;
-}
-
 /// Builds nodes of one origin.
 class Builder {
  public:
@@ -160,6 +144,21 @@ std::optional<Construction> construction_named(std::string_view name) {
   if (name == "step") return Construction::step;
   if (name == "hypot") return Construction::hypot;
   if (name == "table") return Construction::table;
+  return std::nullopt;
+}
+
+std::optional<int> sign_as_written(const Tape& tape, NodeId node) {
+  const double x = tape.constant(node);
+  if (std::isnan(x) || is_small_integer(tape, node)) return x < 0 ? -1 : x > 0 ? 1 : 0;
+  constexpr long precisions[] = {0, 512};  // bits; fractions first
+  const ExactState nothing;
+  for (const long precision : precisions) {
+    if (precision != 0 && !convex::Ball::why_none().empty()) break;
+    ExactEvaluation evaluate(tape, nothing, precision, JetPart::rates);
+    const auto& jet = evaluate(node);
+    if (!jet || !jet->value.is_finite()) continue;
+    if (const auto sign = jet->value.sign()) return sign;
+  }
   return std::nullopt;
 }
 

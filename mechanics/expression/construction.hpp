@@ -33,6 +33,9 @@ std::optional<Construction> construction_named(std::string_view name);
 /// Whether `number` is 1, 2 or 3, the number of a coordinate in space.
 bool is_component(double number);
 
+/// The sign of a constant as written, by fractions or balls; none where those do not tell.
+std::optional<int> sign_as_written(const Tape& tape, NodeId constant);
+
 /// As nodes. Conditions that are constant are decided at once. The arguments of a table: x, the knots, the
 /// values.
 NodeId constructed(Tape& tape, Construction what, std::span<const NodeId> arguments, Origin origin);

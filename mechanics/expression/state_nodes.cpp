@@ -1,35 +1,38 @@
 #include "mechanics/expression/state_nodes.hpp"
 
 #include "mechanics/expression/assignment.hpp"
+#include "mechanics/expression/construction.hpp"
 #include "mechanics/expression/lexer.hpp"
 
 namespace mechanics::expression {
 namespace {
 
-bool refers(const Names& names, const Text& text) {
+bool refers_or_decides(const Names& names, const Text& text) {
   Sources sources;
   Lexer lexer(sources.add(text, "state"));
   for (Token token = lexer.next(); token.kind != Token::Kind::end; token = lexer.next()) {
     if (token.kind == Token::Kind::prime) return true;
     if (token.kind != Token::Kind::name) continue;
     if (token.text == "point") return true;  // of a body, whose coordinates it uses
+    if (token.text == "if" || token.text == "step" || token.text == "sign") return true;
     const Name* meaning = names.find(token.text);
     if (meaning != nullptr && meaning->kind != Name::Kind::parameter) return true;
   }
   return false;
 }
 
-/// Copies nodes to a tape of t alone; coordinates and velocities become what the state gives for them.
+/// Copies nodes to a tape of constants; t, coordinates and velocities become what the state gives for them.
 class StateSubstitution {
  public:
-  StateSubstitution(const LagrangianModel& model, const StateText& text, const Tape& from,
+  StateSubstitution(const LagrangianModel& model, const StateText& text, const Tape& from, NodeId t,
                     std::vector<NodeId> q, std::vector<NodeId> v, Tape& to)
       : model_(model),
         place_(text.position_table ? std::optional(text.position_table->begin) : std::nullopt),
         from_(from),
-        given_{std::move(q), std::move(v)},
+        given_{std::move(q), std::move(v), {t}},
         to_(to) {}
 
+  NodeId instant() { return given(2, 0); }
   NodeId position(std::size_t i) { return given(0, i); }
   NodeId velocity(std::size_t i) { return given(1, i); }
 
@@ -39,8 +42,9 @@ class StateSubstitution {
     return root == no_node ? no_node : copy(root);
   }
 
-  /// The node that stands for a variable; no_node where that is a velocity at rest.
+  /// The node that stands for a variable; no_node where that is 0, a velocity at rest or t.
   NodeId meaning(NodeId variable) const {
+    if (from_.operation(variable) == Operation::time) return given_[2][0];
     const bool is_velocity = from_.operation(variable) == Operation::velocity;
     const std::size_t i = from_.a(variable);
     const NodeId found = given_[is_velocity ? 1 : 0][i];
@@ -62,7 +66,8 @@ class StateSubstitution {
         continue;
       }
       const Operation operation = from_.operation(node);
-      const bool is_variable = operation == Operation::coordinate || operation == Operation::velocity;
+      const bool is_variable = operation == Operation::time || operation == Operation::coordinate ||
+                               operation == Operation::velocity;
       std::vector<NodeId> below;
       if (is_variable) {
         if (const NodeId stands = meaning(node); stands != no_node) below.push_back(stands);
@@ -94,13 +99,19 @@ class StateSubstitution {
         return to_.literal(from_.text(node), from_.constant(node), at);
       case Operation::pi:
         return to_.pi(at);
-      case Operation::time:
-        return to_.time(at);
       case Operation::parameter:
         return to_.parameter(from_.text(node), known_[below[0]], at);
+      case Operation::time:
       case Operation::coordinate:
       case Operation::velocity:
         return below.empty() ? to_.literal("0", 0, at) : known_[below[0]];
+      case Operation::where_negative:
+      case Operation::where_not_negative: {
+        const auto sign = sign_as_written(to_, known_[below[0]]);
+        if (!sign) return to_.apply(operation, known_[below[0]], known_[below[1]], at);
+        const bool counts = (*sign < 0) == (operation == Operation::where_negative);
+        return counts ? known_[below[1]] : to_.literal("0", 0, at);
+      }
       default:
         return to_.apply(operation, known_[below.front()], known_[below.back()], at);
     }
@@ -109,7 +120,7 @@ class StateSubstitution {
   const LagrangianModel& model_;
   std::optional<convex::Place> place_;  // definitions lie elsewhere, so that the state's own is said
   const Tape& from_;
-  std::vector<NodeId> given_[2];
+  std::vector<NodeId> given_[3];  // positions, velocities, t
   Tape& to_;
   std::vector<NodeId> known_;
   std::vector<bool> open_;
@@ -117,11 +128,11 @@ class StateSubstitution {
 
 }  // namespace
 
-bool refers_to_state(const LagrangianModel& model, const StateText& text) {
+bool needs_nodes(const LagrangianModel& model, const StateText& text) {
   for (const auto* table : {&text.position, &text.velocity})
     for (const NamedText& entry : *table)
-      if (refers(model.names, entry.value)) return true;
-  return false;
+      if (refers_or_decides(model.names, entry.value)) return true;
+  return text.t && refers_or_decides(model.names, *text.t);
 }
 
 StateNodes state_nodes(const LagrangianModel& model, const StateText& text) {
@@ -140,7 +151,13 @@ StateNodes state_nodes(const LagrangianModel& model, const StateText& text) {
     return by_coordinate;
   };
   std::vector<NodeId> q = nodes(text.position, "position"), v = nodes(text.velocity, "velocity");
-  StateSubstitution substitution(model, text, tape, std::move(q), std::move(v), found.tape);
+  NodeId t = no_node;
+  if (text.t) {
+    const Source& source = found.sources.add(*text.t, "t of the state");
+    t = expansion.node(parse_expression(source, {&model.names, Vocabulary::system, {}}), {});
+  }
+  StateSubstitution substitution(model, text, tape, t, std::move(q), std::move(v), found.tape);
+  found.t = substitution.instant();
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     found.q.push_back(substitution.position(i));
     found.v.push_back(substitution.velocity(i));

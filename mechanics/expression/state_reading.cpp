@@ -70,10 +70,11 @@ State read_state(const LagrangianModel& model, const StateText& text) {
     state.t = expansion.number(parse_expression(source, {&model.names, Vocabulary::instant, {}}), {});
   }
   std::vector<Index> missing, at_rest;
-  const bool refers = refers_to_state(model, text);
-  if (refers) {
+  const bool by_nodes = needs_nodes(model, text);
+  if (by_nodes) {
     const StateNodes nodes = state_nodes(model, text);
-    const std::vector<Rounded> numbers = rounded_nodes(nodes.tape, state.t);
+    const std::vector<Rounded> numbers = rounded_nodes(nodes.tape);
+    if (nodes.t != no_node) state.t = numbers[nodes.t].value;
     state.q = values_of(nodes.q, text, text.position, numbers, "position", model, missing);
     state.v = values_of(nodes.v, text, text.velocity, numbers, "velocity", model, at_rest);
   } else {
@@ -89,7 +90,8 @@ State read_state(const LagrangianModel& model, const StateText& text) {
         "position: " + list + " missing; give every coordinate",
         text.position_table ? std::optional(text.position_table->begin) : std::nullopt);
   }
-  if (!refers) state.v = read_values(model, text.velocity, "velocity", state.t, sources, expansion, at_rest);
+  if (!by_nodes)
+    state.v = read_values(model, text.velocity, "velocity", state.t, sources, expansion, at_rest);
   return state;
 }
 
