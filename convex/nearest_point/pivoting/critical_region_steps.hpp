@@ -2,55 +2,52 @@
 
 #include <cmath>
 
+#include "convex/dense/pack_kernels.hpp"
 #include "convex/nearest_point/pivoting/critical_region.hpp"
-#include "convex/nearest_point/pivoting/small_tableau_rows.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline pivoting {
 
-/// The point of a `CriticalRegion`, one product and what is measured at it. Packs of places as in
-/// `SmallTableauRows`.
+/// The point of a `CriticalRegion`, one product and what is measured at it. Packs of coordinates: 1, so that
+/// loops over them vanish; else 4, which stands for any number.
 template <int W, bool Fused, int packs>
-struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
-  using Rows = SmallTableauRows<W, Fused, packs>;
+struct CriticalRegionSteps : Kernels<W, Fused> {
   using K = Kernels<W, Fused>;
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
-  using Rows::each, Rows::ld, Rows::stride;
   static constexpr double infinite = __builtin_inf();
+
+  MOREAU_INLINE Index ld(const CriticalRegion& region) { return packs == 1 ? 8 : region.p.ld; }
 
   /// Takes in z and s_W, in their units, and splits them. The largest. Entries of s go by themselves: a pack
   /// would wait until they have reached the memory.
-  MOREAU_INLINE double take_column(SmallTableau& t, CriticalRegion& region, const double* z,
-                                   const double* s) {
-    const Index n = t.n;
-    Pack most;
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) {
-          const Pack x = P::load_before(z + i, z + n), size = K::size(P::times(x, P::load(region.unit + i)));
-          P::store(t.z + i, x);
-          P::store(t.w_free + i, x);
-          most = i > 0 ? P::larger(most, size) : size;
-        });
+  MOREAU_INLINE double take_column(CriticalRegion& region, const double* z, const double* s) {
+    const GramPoint& p = region.p;
+    const Index n = p.n;
+    Pack most{};
+    for (Index i = 0; i < ld(region); i += 8) {
+      const Pack x = P::load_before(z + i, z + n), size = K::size(P::times(x, P::load(region.unit + i)));
+      P::store(p.z + i, x);
+      P::store(p.w_free + i, x);
+      most = i > 0 ? P::larger(most, size) : size;
+    }
     double largest = 0;
-    for (Index k = 0; k < t.size; ++k) {
-      const double x = std::abs(s[t.rows[k]] * region.unit[n + k]);
+    for (Index k = 0; k < p.size; ++k) {
+      const double x = std::abs(s[p.rows[k]] * region.unit[n + k]);
       largest = largest > x ? largest : x;
     }
     const double of_z = K::largest(most);
     largest = largest > of_z ? largest : of_z;
     const double shift = CriticalRegion::leaves_leading * largest;
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) {
-          const Pack x = P::times(P::load(t.z + i), P::load(region.unit + i)),
-                     leading = P::plus(P::plus(x, shift), -shift);
-          P::store(region.x + i, x);
-          P::store(region.x_leading + i, leading);
-          P::store(region.x_rest + i, P::minus(x, leading));
-        });
-    for (Index k = 0; k < t.size; ++k) {
-      const double level = s[t.rows[k]], x = level * region.unit[n + k], leading = (x + shift) - shift;
-      if (!region.has_all) t.level[t.place[k]] = level;
+    for (Index i = 0; i < ld(region); i += 8) {
+      const Pack x = P::times(P::load(p.z + i), P::load(region.unit + i)),
+                 leading = P::plus(P::plus(x, shift), -shift);
+      P::store(region.x + i, x);
+      P::store(region.x_leading + i, leading);
+      P::store(region.x_rest + i, P::minus(x, leading));
+    }
+    for (Index k = 0; k < p.size; ++k) {
+      const double x = s[p.rows[k]] * region.unit[n + k], leading = (x + shift) - shift;
       region.x[n + k] = x;
       region.x_leading[n + k] = leading;
       region.x_rest[n + k] = x - leading;
@@ -87,31 +84,32 @@ struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
 
   /// `count` packs from `first` on: what w and r are, before these are whitened.
   template <int count>
-  MOREAU_INLINE void balance(SmallTableau& t, const CriticalRegion& region, Index first) {
+  MOREAU_INLINE void balance(const CriticalRegion& region, Index first) {
+    const GramPoint& p = region.p;
     Pack pull[count], product[count], other[count];
 #pragma GCC unroll 4
-    for (int r = 0; r < count; ++r) pull[r] = P::load(t.z + first + 8 * r);
+    for (int r = 0; r < count; ++r) pull[r] = P::load(p.z + first + 8 * r);
     P::clear(product), P::clear(other);
     const double* column = region.balance + first;
     Index j = 0;
-    for (; j + 2 <= t.n; j += 2, column += 2 * ld(t))
+    for (; j + 2 <= p.n; j += 2, column += 2 * ld(region))
 #pragma GCC unroll 4
       for (int r = 0; r < count; ++r) {
         P::add_product(product[r], P::load(column + 8 * r), region.y[j]);
-        P::add_product(other[r], P::load(column + ld(t) + 8 * r), region.y[j + 1]);
+        P::add_product(other[r], P::load(column + ld(region) + 8 * r), region.y[j + 1]);
       }
-    if (j < t.n) {
+    if (j < p.n) {
 #pragma GCC unroll 4
       for (int r = 0; r < count; ++r) P::add_product(product[r], P::load(column + 8 * r), region.y[j]);
-      column += ld(t);
+      column += ld(region);
     }
-    for (j = t.n; j < region.columns; ++j, column += ld(t))
+    for (j = p.n; j < region.columns; ++j, column += ld(region))
 #pragma GCC unroll 4
       for (int r = 0; r < count; ++r) P::add_product(pull[r], P::load(column + 8 * r), region.y[j]);
 #pragma GCC unroll 4
     for (int r = 0; r < count; ++r) {
-      P::store(t.w + first + 8 * r, pull[r]);
-      P::store(t.r + first + 8 * r, P::minus(pull[r], P::plus(product[r], other[r])));
+      P::store(p.w + first + 8 * r, pull[r]);
+      P::store(p.r + first + 8 * r, P::minus(pull[r], P::plus(product[r], other[r])));
     }
   }
 
@@ -129,19 +127,17 @@ struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
     for (; first < size; first += 8) work.template operator()<1>(first);
   }
 
-  MOREAU_INLINE void take_affine_point(SmallTableau& t, CriticalRegion& region, const double* z,
-                                       const double* s) {
-    const Index n = t.n;
-    const bool has_all = region.has_all = t.all <= SmallTableau::few_rows;
-    for (Index r = 0; has_all && r < stride(t); r += 8)
-      P::store(t.level + r, P::load_before(s + r, s + t.all));
-    const double largest = take_column(t, region, z, s);
+  MOREAU_INLINE void take_affine_point(CriticalRegion& region, const double* z, const double* s) {
+    GramPoint& p = region.p;
+    const Index n = p.n, rows_beside = region.has_all ? padded(p.all) : 0;
+    for (Index r = 0; r < rows_beside; r += 8) P::store(region.level + r, P::load_before(s + r, s + p.all));
+    const double largest = take_column(region, z, s);
     by_packs(
         region.stride, [&]<int count>(Index first)
                            __attribute__((always_inline)) { apply<count>(region, first); });
     by_packs(
-        ld(t), [&]<int count>(Index first)
-                   __attribute__((always_inline)) { balance<count>(t, region, first); });
+        ld(region), [&]<int count>(Index first)
+                        __attribute__((always_inline)) { balance<count>(region, first); });
 
     Pack sum[8], least = P::plus(Pack{}, infinite);  // of missing, rounded, ‖q‖_D, ‖q‖_A, ‖z‖, ‖Aq - ...‖
     P::clear(sum);
@@ -151,29 +147,27 @@ struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
       const Pack size = P::larger(P::times(y, length), P::times(y, P::load(region.pull + i)));
       least = P::smaller(P::where_larger(length, 0, size, infinite), least);
     }
-    for (Index k = 0; k < t.size; ++k) t.lambda[k] = region.y[n + k];
-    for (Index i = 0; i < ld(t); i += 8) {
+    for (Index k = 0; k < p.size; ++k) p.lambda[k] = region.y[n + k];
+    for (Index i = 0; i < ld(region); i += 8) {
       const Pack q = P::first(P::load(region.y + i), n - i), low = P::first(P::load(region.y_low + i), n - i),
-                 diagonal = P::load(t.diagonal + i);
-      P::store(t.q + i, q);
-      P::store(t.q_low + i, low);
+                 diagonal = P::load(p.diagonal + i);
+      P::store(p.q + i, q);
       P::add_products(sum[1], P::times(low, diagonal), low);
       P::add_products(sum[2], P::times(q, diagonal), q);
     }
-    double* const whitened[] = {t.w, t.w_free, t.r};
-    K::forward_each(n, ld(t), t.T, t.inverse, whitened);
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) {
-          const Pack w = P::load(t.w + i), free = P::load(t.w_free + i), r = P::load(t.r + i);
-          P::add_products(sum[3], w, w);
-          P::add_products(sum[4], free, free);
-          P::add_products(sum[5], r, r);
-        });
-    for (Index r = 0; has_all && r < stride(t); r += 8) {
-      K::dots(n, t.raw + r * n, t.q, t.slack_at + r);
-      const Pack level = P::load(t.level + r), slack = P::minus(P::load(t.slack_at + r), level),
-                 enter = P::load(t.enter + r);
-      P::store(t.slack_at + r, slack);
+    double* const whitened[] = {p.w, p.w_free, p.r};
+    K::forward_each(n, ld(region), p.T, p.inverse, whitened);
+    for (Index i = 0; i < ld(region); i += 8) {
+      const Pack w = P::load(p.w + i), free = P::load(p.w_free + i), r = P::load(p.r + i);
+      P::add_products(sum[3], w, w);
+      P::add_products(sum[4], free, free);
+      P::add_products(sum[5], r, r);
+    }
+    for (Index r = 0; r < rows_beside; r += 8) {
+      K::dots(n, region.raw + r * n, p.q, p.slack + r);
+      const Pack level = P::load(region.level + r), slack = P::minus(P::load(p.slack + r), level),
+                 enter = P::load(region.enter + r);
+      P::store(p.slack + r, slack);
       const Pack clear = P::times(P::minus(slack, P::times(K::size(level), near_zero)), enter);
       least = P::smaller(P::where_larger(enter, 0, clear, infinite), least);
       P::add_product(sum[6], clear, 0);  // not 0 where a level is not finite
@@ -184,10 +178,10 @@ struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
     P::store(root, P::root(totals));
     region.remaining = total[0] + region.error_of_sums * largest;
     region.rounded = root[1];
-    t.magnitude = root[2];
-    t.acceleration_norm = root[3];
-    t.z_norm = root[4];
-    t.stationarity = root[5];
+    p.magnitude = root[2];
+    p.acceleration_norm = root[3];
+    p.z_norm = root[4];
+    p.stationarity = root[5];
     region.least = total[6] - K::largest(P::times(least, -1));
   }
 };

@@ -69,6 +69,14 @@ bool FactoredRows::settle_again() {
   return settled;
 }
 
+bool FactoredRows::keep_rows_held() {
+  whiten_z();
+  if (!set_->keep_rows_held()) return false;
+  p_.steps = 0;
+  take_point(false);
+  return true;
+}
+
 /// q and lambda of the rows held, in doubles.
 void FactoredRows::take_point(bool has_changed) {
   set_->point(p_.w, p_.q);

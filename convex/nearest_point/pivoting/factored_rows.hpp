@@ -15,6 +15,7 @@ class FactoredRows final : public GramWorkingSet {
   GramPoint& point() override { return p_; }
   bool settle(const std::vector<Index>& guess) override;
   bool settle_again() override;
+  bool keep_rows_held() override;
   bool is_near(double size) override;
   Index most_near() const override { return p_.all; }
   bool correct(bool is_first, double small) override;

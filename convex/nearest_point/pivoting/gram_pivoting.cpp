@@ -147,6 +147,13 @@ bool GramPivoting::settle_again() {
   return pivot_by_parts();
 }
 
+bool GramPivoting::keep_rows_held() {
+  rows_.reload();
+  if (!find_multipliers()) return false;
+  find_point(w_, q_);
+  return true;
+}
+
 void GramPivoting::point(double* w, double* q) const {
   if (all_known()) return find_point(w, q);
   copy_packs(A_.ld, w_, w);

@@ -29,6 +29,8 @@ class GramPivoting {
   bool settle(const std::vector<Index>& guess);
   /// The same from the rows held now, after z and s of the problem have changed, and w_free with them.
   bool settle_again();
+  /// The point of the rows held now, whatever its signs.
+  bool keep_rows_held();
 
   /// Pivots at the scale of what a point misses of its equations, on the same Gram matrix. Rows held whose
   /// multiplier is clear of 0 stay, rows outside that are clear of their edge stay out; the others change

@@ -5,43 +5,15 @@
 
 #include "convex/dense/dense_kernels.hpp"
 #include "convex/nearest_point/active_set/refinement.hpp"
-#include "convex/nearest_point/optimality/held_residuals.hpp"
-#include "convex/nearest_point/pivoting/critical_region.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline pivoting {
-namespace {
-
-/// What may be missing of the scale, so that the bound is that of rounding the answer.
-constexpr double beside_rounding = 0x1p-57;
-
-}  // namespace
-
 GramSolve::GramSolve(GramWorkingSet& set)
     : set_(set), problem_(set.problem()), p_(set.point()), rows_(p_.all * p_.n, p_.U) {}
 
 bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
-  if (!set_.settle_again() || !answer(accuracy, solution)) return false;
-  set_.follow_working_set();
-  return true;
-}
-
-bool GramSolve::solve_in_critical_region(const Accuracy& accuracy, Solution& solution) {
-  const CriticalRegion* const region = set_.take_affine_point();
-  if (!region) return false;
-  set_held_slacks_apart();
-  known_ = Corrections();
-  known_.scale = p_.norm();
-  known_.remaining = region->remaining;
-  known_.rounding = std::sqrt(static_cast<double>(p_.n)) * region->rounded;
-  known_.bound = 2 * known_.remaining + known_.rounding;
-  moved_ = touched_violation_ = 0;
-  return region->least > near_zero * std::max(known_.scale, p_.magnitude) &&
-         known_.remaining <= beside_rounding * known_.scale &&
-         known_.bound <= accuracy.tolerance * std::max(1.0, p_.acceleration_norm) &&
-         (region->has_all || is_clear(known_.scale)) && write(accuracy, solution) &&
-         solution.status == Status::solved;
+  return set_.settle_again() && answer(accuracy, solution);
 }
 
 bool GramSolve::answer(const Accuracy& accuracy, Solution& solution) {
@@ -56,7 +28,7 @@ bool GramSolve::answer(const Accuracy& accuracy, Solution& solution) {
 /// Whether the answer in doubles is within so much, no row close to tipping over.
 bool GramSolve::doubles_do(double close) {
   set_.measure();
-  set_held_slacks_apart();
+  set_held_slacks_apart(p_);
   Index weak = 0;
   double missing = 0;
   for (Index k = 0; k < p_.size; ++k) {
@@ -116,7 +88,7 @@ double GramSolve::near_scale(double part) {
   constexpr Index few = 8;
   const double small = part * known_.scale;
   if (!set_.is_near(small)) return 0;
-  set_held_slacks_apart();
+  set_held_slacks_apart(p_);
   const Index most = p_.size == p_.n ? 0 : set_.most_near();
   const Index near = close_rows(0, small, most);
   if (near > most) return 0;
@@ -129,49 +101,14 @@ double GramSolve::near_scale(double part) {
   return any ? small : 0;
 }
 
-/// ||q||_A is that of w, which is what is left of z and the pushes of the rows: where these cancel, of q
-/// itself.
-void GramSolve::measure_again_where_it_cancels() {
-  constexpr double much = 0x1p-20;
-  double largest = known_.scale;
-  for (Index k = 0; k < p_.size; ++k) largest = std::max(largest, std::abs(p_.lambda[k]) * p_.length[k]);
-  if (p_.acceleration_norm > much * largest) return;
-  const bool is_zero = std::all_of(p_.q, p_.q + p_.n, [](double x) { return x == 0; });
-  p_.acceleration_norm = is_zero ? 0 : problem_.A.norm(Eigen::Map<const Vector>(p_.q, p_.n));
-}
-
 bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
-  measure_again_where_it_cancels();
   const double close = accuracy.tolerance * std::max(1.0, p_.acceleration_norm);
   // As many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
   // multipliers are, so far as their signs are told, the point is that one.
   if (!(known_.bound <= close) && p_.size == p_.n && !problem_.radii && keeps_close(0)) known_.bound = 0;
-  // `convex::residuals`, to which only the rows held and touched matter; measured in doubles.
-  double most = 0;
-  for (Index k = 0; k < p_.size; ++k) most = std::max(most, std::abs(p_.lambda[k]));
-  HeldResiduals held(p_.stationarity, p_.acceleration_norm, known_.scale, most);
-  for (Index k = 0; k < p_.size; ++k)
-    held.add(problem_.s[p_.rows[k]], p_.length[k], p_.lambda[k], p_.held_slack[k], !(p_.pull[k] > 0));
-  solution.residuals = held.all();
-  solution.residuals.feasibility = std::max(solution.residuals.feasibility, touched_violation_);
-  solution.method = "active-set";
-  solution.undecided = problem_.radii && touches_rows() ? open_question::touched : std::string_view();
-  solution.model.islands.clear();
-  solution.steps = p_.steps;
-  solution.farkas.resize(0);
-  solution.q = Eigen::Map<const Vector>(p_.q, p_.n);
-  solution.lambda.setZero(p_.all);
-  solution.slack = Eigen::Map<const Vector>(p_.slack, p_.all);
-  for (Index k = 0; k < p_.size; ++k) {
-    solution.lambda[p_.rows[k]] = p_.lambda[k];
-    solution.slack[p_.rows[k]] = 0;
-  }
-  solution.basis.assign(p_.rows, p_.rows + p_.size);
-  solution.acceleration_norm = p_.acceleration_norm;
-  solution.force_norm = p_.z_norm;
-  solution.rounding = known_.rounding;
-  solution.error_bound = known_.bound + moved_;
-  solution.status = solution.is_within(accuracy) ? Status::solved : Status::inaccurate;
+  const PointError known{known_.scale, known_.rounding, known_.bound + moved_, touched_violation_,
+                         problem_.radii && touches_rows() ? open_question::touched : std::string_view()};
+  pivoting::write(problem_, p_, known, accuracy, solution);
   return true;
 }
 

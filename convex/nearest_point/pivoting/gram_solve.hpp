@@ -5,6 +5,7 @@
 #include "convex/exact/grid_sum.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/pivoting/corrections.hpp"
+#include "convex/nearest_point/pivoting/gram_solution.hpp"
 #include "convex/nearest_point/pivoting/gram_working_set.hpp"
 #include "convex/nearest_point/solution.hpp"
 
@@ -25,9 +26,6 @@ class GramSolve {
   }
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
-  /// The same where the critical region of these rows is known and nothing comes near its edge: all numbers
-  /// are finite then.
-  bool solve_in_critical_region(const Accuracy& accuracy, Solution& solution);
 
  private:
   /// What slacks at a corrected point say of it; violated: beyond rounding, by `Corrections::wrong`.
@@ -38,7 +36,6 @@ class GramSolve {
   bool doubles_do(double close);
   bool is_clear(double size);
   double near_scale(double part);
-  void measure_again_where_it_cancels();
   bool write(const Accuracy& accuracy, Solution& solution);
 
   Slacks measure_slacks();
@@ -46,10 +43,11 @@ class GramSolve {
   Slacks decide_degenerate_rows(Index count);
   std::span<const Index> close(Index first, Index end) const { return {p_.close + first, p_.close + end}; }
   bool keeps_close(Index count);
-  void set_held_slacks_apart();
   bool is_at_rest() const;
   bool touches_rows() const;
-  Index close_rows(double absolute, double by_length, Index most);
+  Index close_rows(double absolute, double by_length, Index most) {
+    return pivoting::close_rows(p_, problem_, absolute, by_length, most);
+  }
   void find_violation_of_touched_rows(Index count);
   Index measure_precisely(Index count);
   double slack_noise(Index a) const;

@@ -18,19 +18,6 @@ constexpr double least_rise = 1e-3;
 
 }  // namespace
 
-/// Lists the rows outside whose slack is not above `absolute` |s| + `by_length` times the length, until there
-/// are more than `most`.
-Index GramSolve::close_rows(double absolute, double by_length, Index most) {
-  const double* const s = problem_.s.data();
-  return small_kernels().close_rows(p_.all, p_.slack, s, s + p_.all, p_.row_scale, absolute, by_length, most,
-                                    p_.close);
-}
-
-void GramSolve::set_held_slacks_apart() {
-  for (Index k = 0; k < p_.size; ++k)
-    p_.held_slack[k] = std::exchange(p_.slack[p_.rows[k]], std::numeric_limits<double>::infinity());
-}
-
 /// Whether q is 0, the point of the rows held, and keeps all others, without rounding.
 bool GramSolve::is_at_rest() const {
   const Vector& s = problem_.s;
@@ -56,7 +43,7 @@ GramSolve::Slacks GramSolve::measure_slacks() {
     return Slacks::kept;
   }
   set_.measure();
-  set_held_slacks_apart();
+  set_held_slacks_apart(p_);
   const double rounding = 2 * static_cast<double>(p_.n) * unit_roundoff,
                by_length = rounding * p_.magnitude + known_.missing_slack(1);
   const Index open = close_rows(rounding, by_length, p_.all);

@@ -9,8 +9,6 @@
 
 namespace convex::inline pivoting {
 
-struct CriticalRegion;
-
 /// The rows held and their whitened Gram matrix, in one representation or another: swept at the rows held
 /// (`SweptRows`), or with a factor (`FactoredRows`). It finds the point of the rows held and corrects it;
 /// what that point says is decided by `GramSolve`. False is always: in doubt.
@@ -24,6 +22,8 @@ class GramWorkingSet {
   /// wrong; then the point in doubles.
   virtual bool settle(const std::vector<Index>& guess) = 0;
   virtual bool settle_again() = 0;
+  /// The point in doubles of the rows held, after z and s have changed, whatever its signs.
+  virtual bool keep_rows_held() = 0;
   /// Whether a multiplier (times its row's length) or a slack (over it) is no larger at the point settled on,
   /// as far as rows have been looked at; then `slack` is that of all.
   virtual bool is_near(double size) = 0;
@@ -48,12 +48,6 @@ class GramWorkingSet {
   /// dq: a motion along the rows held that raises the others given, as far as they are independent. Its
   /// ||·||_A; 0 where none is found.
   virtual double raise(std::span<const Index> rows) = 0;
-
-  /// After a solve that went on from the rows held.
-  virtual void follow_working_set() {}
-  /// The point of the rows held by their critical region, where that is known, in place of pivots and
-  /// corrections.
-  virtual const CriticalRegion* take_affine_point() { return nullptr; }
 
   virtual std::vector<Index> one_sided_rows_held() const = 0;
   /// Weights of rows that contradict each other, as doubles tell, where pivoting met such; they are to be

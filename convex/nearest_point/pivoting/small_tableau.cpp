@@ -21,12 +21,11 @@ struct SmallTableauSizes {
   MOREAU_BY_PACKS(bool, settle)
   MOREAU_BY_PACKS(double, margin)
   MOREAU_BY_PACKS(bool, correct)
-  MOREAU_INLINE void take_affine_point(SmallTableau& t, CriticalRegion& region, const double* z,
-                                       const double* s) {
-    if (W > 2 && is_one_pack(t))
-      CriticalRegionSteps<W, Fused, 1>::take_affine_point(t, region, z, s);
+  MOREAU_INLINE void take_affine_point(CriticalRegion& region, const double* z, const double* s) {
+    if (W > 2 && region.p.ld == 8)
+      CriticalRegionSteps<W, Fused, 1>::take_affine_point(region, z, s);
     else
-      CriticalRegionSteps<W, Fused, 4>::take_affine_point(t, region, z, s);
+      CriticalRegionSteps<W, Fused, 4>::take_affine_point(region, z, s);
   }
   MOREAU_BY_PACKS(void, measure)
   MOREAU_BY_PACKS(void, measure_balance)

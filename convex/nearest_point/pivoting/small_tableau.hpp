@@ -82,10 +82,9 @@ struct SmallKernels {
   /// One correction of q + q_low with residuals in twice the working precision, in which weak rows may change
   /// sides: by dq, `change` of lambda; `step`.
   bool (*correct)(SmallTableau&);
-  /// The point of the rows held by their critical region, in place of pivots and corrections, for z and s: q
-  /// + q_low, lambda, the norms of q and z, what `measure` and `measure_balance` find; and what the region
-  /// tells.
-  void (*take_affine_point)(SmallTableau&, CriticalRegion&, const double* z, const double* s);
+  /// The point of a critical region for z and s: q + q_low, lambda, the norms of q and z, `magnitude`,
+  /// `stationarity`, where rows are few `slack`; and what the region tells.
+  void (*take_affine_point)(CriticalRegion&, const double* z, const double* s);
   /// `slack` where all rows have been looked at, and `magnitude`, in doubles.
   void (*measure)(SmallTableau&);
   /// What is missing of the equations of motion, in doubles.

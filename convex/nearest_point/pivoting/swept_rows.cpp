@@ -99,10 +99,25 @@ bool SweptRows::settle(const std::vector<Index>& guess) {
 
 bool SweptRows::settle_again() {
   SmallTableau& t = tableau_;
+  sweeps_ += t.steps;
   if (sweeps_ > sweeps_kept * t.m) return settle({t.rows, t.rows + t.size});
   take_linear_term();
   t.steps = 0;
   return small_kernels().begin_again(t) && settle_all();
+}
+
+bool SweptRows::keep_rows_held() {
+  SmallTableau& t = tableau_;
+  take_linear_term();
+  t.steps = 0;
+  fill_packs(t.stride, 0, t.leave);
+  fill_packs(t.stride, 0, t.enter);
+  const bool is_known = small_kernels().begin_again(t) && small_kernels().settle(t);
+  for (Index a = 0; a < t.stride; ++a) {
+    t.leave[a] = t.held[a] && !t.two_sided[a] ? -t.scale_at[a] : 0;
+    t.enter[a] = t.held[a] ? 0 : t.inverse_scale[a];
+  }
+  return is_known;
 }
 
 /// Pivots until no row is violated. False when something is in doubt.

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <memory>
-
-#include "convex/nearest_point/pivoting/critical_region.hpp"
 #include "convex/nearest_point/pivoting/gram_working_set.hpp"
+#include "convex/nearest_point/pivoting/small_tableau.hpp"
 
 namespace convex::inline pivoting {
 
@@ -28,6 +26,7 @@ class SweptRows final : public GramWorkingSet {
   GramPoint& point() override { return tableau_; }
   bool settle(const std::vector<Index>& guess) override;
   bool settle_again() override;
+  bool keep_rows_held() override;
   bool is_near(double size) override;
   Index most_near() const override { return looks_at_all() ? tableau_.all : few_near; }
   bool correct(bool is_first, double small) override;
@@ -40,14 +39,10 @@ class SweptRows final : public GramWorkingSet {
   std::vector<Index> one_sided_rows_held() const override;
   std::optional<Vector> contradiction() const override;
 
-  const CriticalRegion* take_affine_point() override;
-  void follow_working_set() override;
-
  private:
   static constexpr Index few_near = 16;
 
   void take_linear_term();
-  bool find_critical_region();
   bool take_in(const Index* rows, Index count);
   bool settle_all();
   Index fresh_violated_rows(Index* rows);
@@ -66,8 +61,6 @@ class SweptRows final : public GramWorkingSet {
   Index* place_ = nullptr;  ///< of a row, -1 for one not looked at; where rows are many
   Index sweeps_ = 0, dual_count_ = 0, dual_of_[SmallTableau::most_coordinates];  ///< rows that dual_ is of
   alignas(64) double dual_[SmallTableau::most_coordinates * SmallTableau::most_coordinates];
-  std::unique_ptr<CriticalRegion> region_;
-  Index kept_ = 0;  ///< solves in a row that have ended with the working set of the one before
 };
 
 }  // namespace convex::inline pivoting

@@ -222,7 +222,8 @@ TEST_CASE("a problem solved again and again, rows coming and going, has the answ
 TEST_CASE(
     "the critical region of a working set has the doubles nearest to the truth, and all others theirs") {
   for (unsigned seed = 0; seed < 24; ++seed) {
-    const Index n = 1 + static_cast<Index>((7 * seed) % 32), m = 1 + static_cast<Index>((11 * seed) % 60);
+    const Index n = 1 + static_cast<Index>((7 * seed) % (seed < 12 ? 32 : 90)),
+                m = 1 + static_cast<Index>((11 * seed) % 60);
     CAPTURE(n);
     CAPTURE(m);
     auto [problem, truth] = clear_of_edges(seed, n, m);
