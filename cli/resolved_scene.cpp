@@ -187,8 +187,9 @@ std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
   if (!scene.written || solution.status == convex::Status::infeasible ||
       solution.q.size() != scene.problem.dimension())
     return std::nullopt;
-  auto warning = mechanics::violated_at_higher_order(*scene.written, scene.contacts, scene.problem,
-                                                     answer.multipliers.tight, solution);
+  auto warning =
+      mechanics::violated_at_higher_order(*scene.written, scene.contacts, scene.added, scene.problem,
+                                          answer.multipliers.tight, solution, scene.solve.accuracy);
   if (warning) {
     solution.status = convex::Status::inaccurate;
     solution.error_bound = convex::infinity;

@@ -12,7 +12,7 @@
 namespace mechanics {
 namespace {
 
-constexpr int most_starts = 48;
+constexpr int most_starts = 48, starts_compared = 12;
 constexpr double roundings_of_velocity_rows = 64;
 
 /// Starts around the guess, further and further away; the first is the guess itself.
@@ -38,22 +38,28 @@ class Starts {
   std::uniform_real_distribution<double> even_{-1, 1};
 };
 
-/// Of two places the one that misses less; where both miss nothing, the one nearer to the end of its search.
-bool is_better(const TriedPosition& a, const TriedPosition& b) {
-  return a.missing <= not_found && b.missing <= not_found ? a.step < b.step : a.missing < b.missing;
+/// Of two places the one that misses less; where both miss nothing, the one nearer to the end of its search;
+/// of two ends the one nearer to the guess.
+bool is_better(const PositionSearch& search, const TriedPosition& a, const TriedPosition& b) {
+  if (!(a.missing <= not_found && b.missing <= not_found)) return a.missing < b.missing;
+  if (!(a.step <= not_found && b.step <= not_found)) return a.step < b.step;
+  return search.moved(a) < search.moved(b);
 }
 
-/// A place where all holds, locally the nearest one to the guess; else the one nearest to that.
+/// A place where all holds, locally the nearest one to the guess; else the one nearest to that. Where the
+/// guess itself leads nowhere, the nearest of what the first starts around it lead to.
 TriedPosition feasible(const PositionSearch& search, const State& guess, int starts) {
   std::optional<TriedPosition> best;
   Starts from(guess, search.free());
-  for (int k = 0; k < starts; ++k) {
+  for (int k = 0, last = starts; k < last; ++k) {
     try {
       const TriedPosition start = search.at(from.next());
       TriedPosition found = k == 0 ? search.nearest(start) : search.restored(start, most_restorations);
       if (k > 0 && found.missing <= not_found) found = search.nearest(found);
-      if (!best || is_better(found, *best)) best = std::move(found);
-      if (best->missing <= rounding_part && best->step <= not_found) return *best;
+      if (!best || is_better(search, found, *best)) best = std::move(found);
+      if (best->missing > rounding_part || best->step > not_found) continue;
+      if (k == 0) return *best;
+      last = std::min(last, std::max(k + 1, starts_compared));
     } catch (const convex::InvalidInput&) {
       if (k == 0 && starts == 1) throw;
     }
@@ -189,6 +195,13 @@ std::vector<Index> singular_rows(const LagrangianSystem& system, const PositionS
   }
 }
 
+/// Whether the velocity does what constraint a asks of it.
+bool keeps_rate(const PositionSearch& search, const ConstraintRates& rates, Index a) {
+  const double least = -not_found * rates.df_scale[a];
+  if (search.is_equal(a)) return std::abs(rates.df[a]) <= -least;
+  return rates.f[a] > not_found * rates.f_scale[a] || rates.df[a] >= least;
+}
+
 double residual_of(const LagrangianSystem& system, const PositionSearch& search, const State& state) {
   const ConstraintRates rates = system.constraint_rates(state);
   double worst = 0;
@@ -216,6 +229,11 @@ Assembly assemble(const LagrangianSystem& system, const State& guess, const Asse
     found.proved =
         found.status == AssemblyStatus::infeasible && is_proved(system, search, guess, found.fighting);
     found.residual = residual_of(system, search, found.state);
+    if (found.status == AssemblyStatus::infeasible) return found;
+    const ConstraintRates rates = system.constraint_rates(guess);
+    for (Index a = 0; a < here.f.size(); ++a)
+      if (!keeps_rate(search, rates, a)) found.fighting.push_back(a);
+    if (!found.fighting.empty()) found.status = AssemblyStatus::infeasible;
     return found;
   }
   const TriedPosition best = feasible(search, guess, most_starts);

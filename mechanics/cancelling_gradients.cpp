@@ -5,6 +5,7 @@
 #include <random>
 
 #include "convex/nearest_point/methods.hpp"
+#include "mechanics/evaluation_error.hpp"
 #include "mechanics/expression/constraint_series.hpp"
 #include "mechanics/number_text.hpp"
 #include "mechanics/singular/row_space.hpp"
@@ -126,8 +127,9 @@ std::vector<Weights> cancelling(const TightRows& tight) {
 /// Motions with the position, velocity and acceleration given, each with what it is known to.
 class Motions {
  public:
+  /// `error`: of q'', ||·||_A.
   Motions(const WrittenMechanism& written, const convex::NearestPointProblem& problem,
-          const convex::Solution& answer, const expression::ConstraintSeries& series)
+          const convex::Solution& answer, double error, const expression::ConstraintSeries& series)
       : series_(series),
         t_(Rounded(written.state.t, written.radii.t)),
         q_(static_cast<std::size_t>(answer.q.size())) {
@@ -140,7 +142,7 @@ class Motions {
       c[1] = {written.state.v[i], radius(written.radii.v, i)};
       // |e_i| <= sqrt((A⁻¹)_ii) ||e||_A
       const double reach = std::sqrt(problem.A.solve(Vector::Unit(answer.q.size(), i))[i]);
-      c[2] = Rounded(answer.q[i], reach * answer.error_bound + 0x1p-53 * std::abs(answer.q[i])) / 2.0;
+      c[2] = Rounded(answer.q[i], reach * error + 0x1p-53 * std::abs(answer.q[i])) / 2.0;
       size_ = std::max(size_, std::abs(answer.q[i]) / unit_[i]);
     }
   }
@@ -208,11 +210,10 @@ std::string sum_text(const WrittenMechanism& written, const TightRows& tight,
 
 }  // namespace
 
-std::optional<Warning> violated_at_higher_order(const WrittenMechanism& written,
-                                                const std::vector<Index>& contacts,
-                                                const convex::NearestPointProblem& problem,
-                                                const std::vector<Index>& tight,
-                                                const convex::Solution& answer) {
+std::optional<Warning> violated_at_higher_order(
+    const WrittenMechanism& written, const std::vector<Index>& contacts, const std::vector<AddedRow>& added,
+    const convex::NearestPointProblem& problem, const std::vector<Index>& tight,
+    const convex::Solution& answer, const convex::Accuracy& accuracy) {
   if (tight.size() > most_rows_looked_at || !answer.q.allFinite() || !std::isfinite(answer.error_bound))
     return std::nullopt;
   const TightRows rows = tight_rows(*written.system, contacts, problem, tight);
@@ -221,7 +222,9 @@ std::optional<Warning> violated_at_higher_order(const WrittenMechanism& written,
   std::vector<Index> constraints;
   for (const Index row : rows.rows) constraints.push_back(contacts[static_cast<std::size_t>(row)]);
   const expression::ConstraintSeries series(written.system->model(), constraints);
-  const Motions motions(written, problem, answer, series);
+  const double as_evaluated = evaluation_error(written, contacts, added, problem, answer, accuracy);
+  const Motions motions(written, problem, answer,
+                        answer.error_bound + (std::isfinite(as_evaluated) ? as_evaluated : 0), series);
   std::mt19937_64 random(1966);
   constexpr std::size_t draws = 3, third = 3, velocity = 1;
   const std::vector<TimeSeries> f = motions.with_no_more_derivatives();

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/solution.hpp"
+#include "mechanics/singular/singular_group.hpp"
 #include "mechanics/warning.hpp"
 #include "mechanics/written_mechanism.hpp"
 
@@ -14,10 +15,12 @@ namespace mechanics {
 /// the first Taylor coefficient of F along q + q'τ + ½ q''τ² that rounding does not hide is negative, as it
 /// is with the higher derivatives of q that are drawn by lot; or there is none, and motions beside this one
 /// violate F. None when there are none, or more than `most_rows_looked_at` contacts persist. Row k of the
-/// problem is that of contacts[k]; `tight`: the rows that persist.
+/// problem is that of contacts[k], the `added` ones come behind them; `tight`: the rows that persist.
 std::optional<Warning> violated_at_higher_order(const WrittenMechanism&, const std::vector<Index>& contacts,
+                                                const std::vector<AddedRow>& added,
                                                 const convex::NearestPointProblem&,
-                                                const std::vector<Index>& tight, const convex::Solution&);
+                                                const std::vector<Index>& tight, const convex::Solution&,
+                                                const convex::Accuracy&);
 
 /// Looking at the gradients of so many is a matter of milliseconds.
 inline constexpr std::size_t most_rows_looked_at = 200;

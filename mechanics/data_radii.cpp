@@ -226,6 +226,24 @@ convex::DataRadii row_radii(const LagrangianSystem& system, const State& state, 
   return found.by_rows(metric);
 }
 
+convex::SparseRows gradients_beyond_rounding(const LagrangianSystem& system, const State& state,
+                                             const std::vector<Index>& constraints) {
+  convex::SparseRows U(static_cast<Index>(constraints.size()), state.q.size());
+  if (constraints.empty()) return U;
+  const LagrangianModel& model = system.model();
+  const Program& program = model.contacts;
+  const ValuesOf<Rounded> x =
+      program.rounded_values(rounded_state(state, guessed_radii(state)), 0, rounded_nodes(model.tape));
+  GradientsOf<Rounded> gradients(program);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < constraints.size(); ++k)
+    for (const auto& [i, u] :
+         gradients.of(program.roots(0)[static_cast<std::size_t>(constraints[k])], x).by_q)
+      if (!u.may_be_zero()) entries.emplace_back(static_cast<Index>(k), i, u.value);
+  U.setFromTriplets(entries.begin(), entries.end());
+  return U;
+}
+
 RateRadii rate_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii) {
   const Program& program = system.model().contacts;
   const std::vector<Rounded> constants = rounded_nodes(system.model().tape);

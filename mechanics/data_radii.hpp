@@ -36,6 +36,13 @@ convex::EntryRadii data_radii(const LagrangianSystem&, const State&, const State
 convex::DataRadii row_radii(const LagrangianSystem&, const State&, const StateRadii&,
                             const std::vector<Index>& contacts, const convex::Metric& metric);
 
+/// The gradients of these constraints, a row each, without the entries that may be 0 as far as the rounding
+/// of the state, of a few operations (`guessed_radii`), and of their own evaluation tell: that of 1 - sin(x)
+/// at π/2 is 6e-17 in doubles.
+inline constexpr double suspicious_gradient = 0x1p-30;  ///< of what f is the sum of: worth that look
+convex::SparseRows gradients_beyond_rounding(const LagrangianSystem&, const State&,
+                                             const std::vector<Index>& constraints);
+
 /// How far f_a and df_a/dt, as `constraint_rates` evaluates them, may be from those as written.
 struct RateRadii {
   Vector f, df;

@@ -170,6 +170,12 @@ Rounded rounded(const Number& x) {
   return {number, widened(x.radius() + (is_double ? 0 : std::max(std::abs(number) * 0x1p-53, lost_below)))};
 }
 
+/// Digits that are asked of each of these contacts, and of all.
+double most_telling(const LagrangianModel& model, const std::vector<Index>& contacts) {
+  const double numbers = static_cast<double>(model.coordinates.size() + contacts.size());
+  return std::min(most_telling_precision, most_telling_bits / numbers);
+}
+
 /// The verdicts that are still open, at a precision; and the least one that would tell of those that are open
 /// and algebraic, 0 when there are none.
 long decide_contacts(const LagrangianModel& model, const StateText& text, const std::vector<Index>& wanted,
@@ -177,8 +183,7 @@ long decide_contacts(const LagrangianModel& model, const StateText& text, const 
   const auto state = read_state_exactly(model, text, precision);
   if (!state) return 0;
   ExactEvaluation evaluate(model.tape, *state, precision, JetPart::rates);
-  const double numbers = static_cast<double>(model.coordinates.size() + wanted.size());
-  const double most = std::min(most_telling_precision, most_telling_bits / numbers);
+  const double most = most_telling(model, wanted);
   double telling = 0;
   for (const Index a : wanted) {
     const auto k = static_cast<std::size_t>(a);
@@ -230,25 +235,43 @@ std::vector<KnownNode> numbers_as_written(const LagrangianSystem& system, const 
   return found;
 }
 
+namespace {
+
+/// Gradients not found 0 yet, at a precision; and the least one that would tell, as in `decide_contacts`.
+long find_vanishing(const LagrangianModel& model, const StateText& text, const std::vector<Index>& contacts,
+                    long precision, std::vector<std::optional<Rounded>>& found) {
+  const auto state = read_state_exactly(model, text, precision);
+  if (!state) return 0;
+  ExactEvaluation evaluate(model.tape, *state, precision);
+  const double most = most_telling(model, contacts);
+  double telling = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (found[k]) continue;
+    const auto& f = evaluate(model.f[static_cast<std::size_t>(contacts[k])]);
+    if (!f || !f->along_twice.is_finite()) continue;
+    const auto& u = f->by_q;
+    if (std::all_of(u.begin(), u.end(), [](const Number& entry) { return entry.sign() == 0; }))
+      found[k] = rounded(-f->along_twice);
+    if (found[k] ||
+        std::any_of(u.begin(), u.end(), [](const Number& entry) { return entry.sign().value_or(0) != 0; }))
+      continue;
+    for (const Number& entry : u)
+      if (const auto needed = entry.telling_precision(); needed && *needed <= most)
+        telling = std::max(telling, *needed);
+  }
+  return static_cast<long>(std::ceil(telling));
+}
+
+}  // namespace
+
 std::vector<std::optional<Rounded>> where_gradients_vanish(const LagrangianSystem& system,
                                                            const StateText& text,
                                                            const std::vector<Index>& contacts) {
-  const LagrangianModel& model = system.model();
   std::vector<std::optional<Rounded>> found(contacts.size());
-  for (const long precision : {0L, first_precision}) {
-    if (precision != 0 && !Ball::why_none().empty()) break;
-    const auto state = read_state_exactly(model, text, precision);
-    if (!state) continue;
-    ExactEvaluation evaluate(model.tape, *state, precision);
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-      if (found[k]) continue;
-      const auto& f = evaluate(model.f[static_cast<std::size_t>(contacts[k])]);
-      if (!f || !f->along_twice.is_finite()) continue;
-      const bool is_zero =
-          std::all_of(f->by_q.begin(), f->by_q.end(), [](const Number& entry) { return entry.sign() == 0; });
-      if (is_zero) found[k] = rounded(-f->along_twice);
-    }
-  }
+  find_vanishing(system.model(), text, contacts, 0, found);
+  if (!Ball::why_none().empty()) return found;
+  const long telling = find_vanishing(system.model(), text, contacts, first_precision, found);
+  if (telling > first_precision) find_vanishing(system.model(), text, contacts, telling, found);
   return found;
 }
 

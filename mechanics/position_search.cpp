@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/automatic.hpp"
+#include "mechanics/data_radii.hpp"
 #include "mechanics/gauss_problem.hpp"
 
 namespace mechanics {
@@ -65,10 +66,30 @@ TriedPosition PositionSearch::at(const Vector& q) const {
   const ConstraintRates rates = system_.constraint_rates(state);
   TriedPosition x{q, rates.f, rates.f_scale, {}, 1, 0};
   x.U = Matrix(system_.contact_rows(state, all_).U)(Eigen::all, free_);
+  take_rounding_for_zero(x);
   for (const Index a : all_) x.missing += square(violation(x, a) / x.scale[a]);
   x.missing = std::sqrt(x.missing);
   if (!std::isfinite(x.missing)) throw convex::InvalidInput("not finite");
   return x;
+}
+
+/// Entries of gradients that are 0 but for rounding become 0: steps would be divided by them.
+void PositionSearch::take_rounding_for_zero(TriedPosition& x) const {
+  std::vector<Index> suspects;
+  for (const Index a : all_) {
+    bool is_suspect = false;
+    for (Index k = 0; k < x.U.cols(); ++k) {
+      const double size = std::abs(x.U(a, k)) * (1 + std::abs(x.q[free_[static_cast<std::size_t>(k)]]));
+      is_suspect = is_suspect || (size > 0 && size <= suspicious_gradient * x.scale[a]);
+    }
+    if (is_suspect) suspects.push_back(a);
+  }
+  if (suspects.empty()) return;
+  const Matrix beyond =
+      Matrix(gradients_beyond_rounding(system_, {guess_.t, x.q, Vector::Zero(x.q.size())}, suspects));
+  for (std::size_t j = 0; j < suspects.size(); ++j)
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      if (beyond(static_cast<Index>(j), free_[k]) == 0) x.U(suspects[j], static_cast<Index>(k)) = 0;
 }
 
 double PositionSearch::moved(const TriedPosition& x) const {

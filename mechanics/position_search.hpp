@@ -53,6 +53,7 @@ class PositionSearch {
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
   static double square(double x) { return x * x; }
 
+  void take_rounding_for_zero(TriedPosition&) const;
   std::optional<TriedPosition> tried(const TriedPosition& x, const Vector& d, double part) const;
 
   /// Σ lambda_a ∂²f_a/∂q∂q by the second rates along directions.

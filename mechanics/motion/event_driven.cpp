@@ -316,6 +316,7 @@ void Motion::EventDriven::continue_arc() {
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
+  if (!expansion_.gradients_taken_for_zero().empty()) take_rounding_of_gradients_for_zero(persist_);
   expansion_.expand({persist_, {}});
   fill_next();
 }

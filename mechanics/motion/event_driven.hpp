@@ -48,6 +48,8 @@ class Motion::EventDriven final : public Motion::Course {
   void handle(const std::vector<Zero>& zeros);
   double rounding_of_f(Index a);
   void stop_at_vanishing_gradient(Index a);
+  /// Gradients of these contacts that are 0 but for rounding count as 0 from here on.
+  void take_rounding_of_gradients_for_zero(const std::vector<Index>& contacts);
   void tell_blur(const std::vector<Zero>& zeros);
   void tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing);
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,

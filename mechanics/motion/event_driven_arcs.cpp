@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/data_radii.hpp"
 #include "mechanics/motion/event_driven.hpp"
 #include "mechanics/motion/step_length.hpp"
 #include "mechanics/motion/terms.hpp"
@@ -152,6 +153,26 @@ void Motion::EventDriven::fill_next() {
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
       step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
+}
+
+void Motion::EventDriven::stop_at_vanishing_gradient(Index a) {
+  if (is_two_sided(a))
+    return stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
+                " vanishes here" + std::string(advice_on_singular_states));
+  stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
+       " vanishes here, and derivatives do not tell what it demands; write it so that its gradient does not "
+       "vanish, as y >= 0 for y^3 >= 0");
+}
+
+void Motion::EventDriven::take_rounding_of_gradients_for_zero(const std::vector<Index>& contacts) {
+  std::vector<Index> lost;
+  for (const Index a : contacts)
+    if (!is_two_sided(a) && expansion_.has_lost_gradient(a)) lost.push_back(a);
+  const convex::SparseRows U = gradients_beyond_rounding(system, state, lost);
+  std::vector<Index> vanishing;
+  for (Index k = 0; k < U.rows(); ++k)
+    if (U.row(k).nonZeros() == 0) vanishing.push_back(lost[static_cast<std::size_t>(k)]);
+  expansion_.take_gradients_for_zero(std::move(vanishing));
 }
 
 }  // namespace mechanics::inline motions

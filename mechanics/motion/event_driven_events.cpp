@@ -67,15 +67,6 @@ std::vector<Zero> Motion::EventDriven::closing_at_the_end() {
   return found;
 }
 
-void Motion::EventDriven::stop_at_vanishing_gradient(Index a) {
-  if (is_two_sided(a))
-    return stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
-                " vanishes here" + std::string(advice_on_singular_states));
-  stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
-       " vanishes here, and derivatives do not tell what it demands; write it so that its gradient does not "
-       "vanish, as y >= 0 for y^3 >= 0");
-}
-
 /// What comes to 0 at the end of a step, all at once.
 void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   std::vector<Index> closing, touching, switches, held;
@@ -133,6 +124,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   std::vector<Index> present = united(closing, touching);
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a) && !contains(present, a)) present.push_back(a);
+  take_rounding_of_gradients_for_zero(present);
   striking_.resize(present.size());
   for (std::size_t k = 0; k < present.size(); ++k) {
     const Index a = present[k];
@@ -161,6 +153,9 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   if (!outcome.undetermined.empty())
     return stop("at t = " + number_text(state.t) + ": " + std::string(outcome.undetermined));
   if (!outcome.remark.empty()) remark(RemarkKind::impact_law, std::string(outcome.remark));
+  for (const Index k : outcome.excluding)
+    if (const Index a = present[static_cast<std::size_t>(k)]; expansion_.is_singular(a))
+      return stop_at_vanishing_gradient(a);
   if (!outcome.excluding.empty()) {
     status = MotionStatus::infeasible;
     for (const Index k : outcome.excluding) excluding.push_back(present[static_cast<std::size_t>(k)]);
@@ -292,6 +287,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   std::fill(is_weak_.begin(), is_weak_.end(), false);
+  take_rounding_of_gradients_for_zero(contacts);
   const std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
   if (answer && meet_kinks(contacts, switches)) return;
   if (!answer) {

@@ -104,6 +104,7 @@ Vector Expansion::row(Index a) const {
 
 void Expansion::row(Index a, Vector& u) const {
   u.setZero(coordinates());
+  if (std::find(zero_rows_.begin(), zero_rows_.end(), a) != zero_rows_.end()) return;
   for (const auto& [i, slot] : equations_.row[index(a)]) u[i] = series_[slot][0];
 }
 

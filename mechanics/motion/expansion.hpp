@@ -82,6 +82,9 @@ class Expansion {
   void row(Index a, Vector& u) const;
   /// Whether ∂f/∂q is 0 up to half the digits of what it is the sum of, as that of y - sin(y) near 0.
   bool has_lost_gradient(Index a);
+  /// From here on the gradients of these constraints count as 0.
+  void take_gradients_for_zero(std::vector<Index> constraints) { zero_rows_ = std::move(constraints); }
+  const std::vector<Index>& gradients_taken_for_zero() const { return zero_rows_; }
   /// The gradient of f_a is 0 here, though f_a has q in it.
   bool is_singular(Index a) const { return !equations_.row[index(a)].empty() && row(a).isZero(0); }
   /// The largest of |u_i v_i| and |∂f/∂t|: what df/dt is the sum of.
@@ -203,6 +206,7 @@ class Expansion {
   convex::Matrix inverse_;    // |A⁻¹| of its entries, for few coordinates
   Vector unit_norms_;         // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
+  std::vector<Index> zero_rows_;
   std::vector<ContactQuestion::Unloaded> unloaded_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mechanics/contacts.hpp"
+#include "mechanics/data_radii.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/number_text.hpp"
@@ -109,15 +110,35 @@ void Motion::TimeStepping::find_inertia(const State& at) {
   gram_ = std::move(inertia.A);
 }
 
+/// Gradients of contacts that are 0 but for rounding become 0.
+void Motion::TimeStepping::take_rounding_for_zero(const State& middle, const std::vector<Index>& constraints,
+                                                  const ConstraintRates& rates, convex::SparseRows& U) const {
+  std::vector<Index> rows, small;
+  for (Index k = 0; k < U.rows(); ++k) {
+    const Index a = constraints[static_cast<std::size_t>(k)];
+    double size = 0;
+    for (convex::SparseRows::InnerIterator u(U, k); u; ++u)
+      size += std::abs(u.value()) * (1 + std::abs(middle.q[u.col()]));
+    if (is_two_sided(a) || size == 0 || size > suspicious_gradient * rates.f_scale[a]) continue;
+    rows.push_back(k);
+    small.push_back(a);
+  }
+  const convex::SparseRows beyond = gradients_beyond_rounding(system, middle, small);
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    if (beyond.row(static_cast<Index>(j)).nonZeros() == 0)
+      for (convex::SparseRows::InnerIterator u(U, rows[j]); u; ++u) u.valueRef() = 0;
+}
+
 Motion::TimeStepping::Contacts Motion::TimeStepping::contacts_at(const State& middle,
                                                                  const std::vector<Index>& constraints,
                                                                  double h) const {
   Contacts found;
   found.constraints = constraints;
   ContactRows rows = system.contact_rows(middle, constraints);
+  const ConstraintRates rates = system.constraint_rates(middle);
+  take_rounding_for_zero(middle, constraints, rates, rows.U);
   const Vector free = A_->solve(z_), pull = rows.U * free - rows.s, along = rows.U * middle.v,
                before = rows.U * state.v;
-  const ConstraintRates rates = system.constraint_rates(middle);
   const auto m = static_cast<Index>(constraints.size());
   found.drift.resize(m);
   found.restitution = Vector::Zero(m);

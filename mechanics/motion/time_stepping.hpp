@@ -43,6 +43,8 @@ class Motion::TimeStepping final : public Motion::Course {
   void take_step(double h, double end);
   std::vector<Index> closed(const State& ahead) const;
   void find_inertia(const State& at);
+  void take_rounding_for_zero(const State& middle, const std::vector<Index>& constraints,
+                              const ConstraintRates& rates, convex::SparseRows& U) const;
   Contacts contacts_at(const State& middle, const std::vector<Index>& closed, double h) const;
   struct Correction {
     std::vector<Index> constraints, two_sided;

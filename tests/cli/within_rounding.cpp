@@ -181,6 +181,40 @@ TEST_CASE("a condition that no coordinate has a part in is decided as written") 
   }
 }
 
+TEST_CASE("a condition in a state is decided as written, of what the state gives too") {
+  const Folder folder;
+  const auto y2 = [&](const std::string& state) {
+    const std::string file =
+        folder.write("state.toml",
+                     "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n"
+                     "[system.forces]\ny = \"y' + 10*y + 100*t\"\n[state]\n" +
+                         state);
+    return Json::parse(run({"solve", "--json", file}).out)["acceleration"]["y"].get<double>();
+  };
+  const std::string at_rest = "position = { x = \"0.1 + 0.2\", y = 0 }\n";
+  CHECK(y2(at_rest + "velocity = { y = \"if(0.1 + 0.2 > 0.3, 5, 1)\" }\n") == 1);
+  CHECK(y2(at_rest + "velocity = { y = \"if(x > 0.3, 5, 1)\" }\n") == 1);
+  CHECK(y2(at_rest + "t = \"step(0.3 - 0.1 - 0.2)\"\n") == 100);
+  CHECK(y2("t = \"0.1 + 0.2 - 0.3\"\nposition = { x = 0, y = \"if(t <= 0, 1, sign(t))\" }\n") ==
+        doctest::Approx(10).epsilon(1e-14));
+}
+
+TEST_CASE("a gradient that cancels as written is 0, whatever terms it is the sum of") {
+  const Folder folder;
+  for (const char* ceiling : {"sin(a) + cos(a) <= sqrt(2)", "sin(a)*cos(a) <= 1/2",
+                              "sin(a)*sqrt(2) - a <= 1 - pi/4", "sin(2*a) <= 1"}) {
+    CAPTURE(ceiling);
+    const std::string file =
+        folder.write("ceiling.toml",
+                     "[system]\ncoordinates = [\"a\"]\nkinetic = \"a'^2/2\"\n[system.forces]\na = 1\n"
+                     "[system.constraints]\nceiling = \"" +
+                         std::string(ceiling) + "\"\n[state]\nposition = { a = \"pi/4\" }\n");
+    const Outcome outcome = run({"solve", "--json", file});
+    CHECK(outcome.code == 0);
+    CHECK(Json::parse(outcome.out)["acceleration"]["a"] == 1);
+  }
+}
+
 TEST_CASE(
     "what is within the rounding of z or s presses and opens nothing, proved or not, and no law fails") {
   const Folder folder;

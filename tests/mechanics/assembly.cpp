@@ -32,6 +32,31 @@ TEST_CASE(
   CHECK(found.residual <= 1e-15);
 }
 
+TEST_CASE("no step is divided by the rounding of a gradient, and of several ends the nearest is taken") {
+  const double upright = std::acos(0.0);
+  // At π/2 the gradient along th is 0: z = 0.5 is met at π/6 or 5π/6.
+  const SystemText rim{{"z", "th"}, "(z'^2 + th'^2)/2", "", {}, {}, {}, {{"rim", "z >= sin(th)"}}};
+  const Assembly found =
+      mechanics::assemble(*system(rim), state({0.5, upright}, {0, 0}), {.contacts = {}, .held = {0}});
+  CHECK(found.status == AssemblyStatus::solved);
+  CHECK(found.moved == doctest::Approx(2 * upright / 3).epsilon(1e-12));
+  // y cos(π/2) = 1 has no y.
+  const SystemText wall{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"wall", "y*cos(pi/2) - x*sin(pi/2) >= 1"}}};
+  CHECK(mechanics::assemble(*system(wall), state({0, 0}, {0, 0}), {.contacts = {}, .held = {0}}).status ==
+        AssemblyStatus::infeasible);
+}
+
+TEST_CASE("with all coordinates held the velocity counts too") {
+  const SystemText wall{{"x"}, "x'^2/2", "", {}, {}, {}, {{"wall", "x >= 0"}}};
+  const auto held = [&](double v) {
+    return mechanics::assemble(*system(wall), state({0}, {v}), {.contacts = {}, .held = {0}});
+  };
+  CHECK(held(-0.5).status == AssemblyStatus::infeasible);
+  CHECK(held(-0.5).fighting == std::vector<convex::Index>{0});
+  CHECK(held(0.5).status == AssemblyStatus::solved);
+}
+
 TEST_CASE("nearness is that of the kinetic metric") {
   const auto s = system({{"x", "y"}, "4*x'^2/2 + y'^2/2", "", {}, {}, {}, {{"line", "x + y = 5"}}});
   const Assembly found = mechanics::assemble(*s, state({0, 0}, {0, 0}), {});

@@ -75,6 +75,31 @@ TEST_CASE("a contact that opens at the start does not close by the impact of ano
   CHECK(found.end().q[1] >= found.end().q[0]);
 }
 
+TEST_CASE("a gradient that is 0 but for rounding takes no impulse and holds nothing") {
+  // sin(a) <= 1 always holds, and its gradient at π/2, 6e-17 in doubles, is 0.
+  const double upright = std::acos(0.0);
+  const SystemText struck{
+      {"a", "b"}, "(a'^2 + b'^2)/2", "", {}, {}, {}, {{"reach", "sin(a) <= 1"}, {"stop", "a + b >= pi/2"}}};
+  const SystemText pushed{
+      {"b"}, "b'^2/2", "", {}, {}, {}, {{"reach", "sin(b) <= 1"}, {"piston", "b >= pi/2 + t"}}};
+  const SystemText pulled{{"a"}, "a'^2/2", "", {}, {}, {{"a", "1"}}, {{"ceiling", "2*sin(a) <= 2"}}};
+  for (const MotionMethod method : {MotionMethod::event_driven, MotionMethod::time_stepping}) {
+    MotionOptions options = restitution(struck, 0.5);
+    options.method = method;
+    options.step = 1e-3;
+    const Followed hit = followed(struck, state({upright, 0}, {1, -3}), 0.1, options);
+    CHECK(hit.end().v[0] == doctest::Approx(2.5).epsilon(1e-12));
+    CHECK(hit.end().v[1] == doctest::Approx(-1.5).epsilon(1e-12));
+    options.restitution = Vector::Zero(2);
+    const Followed lever = followed(pushed, state({upright}, {0}), 0.1, options);
+    CHECK(lever.motion.status() == MotionStatus::done);
+    CHECK(lever.end().v[0] == doctest::Approx(1).epsilon(1e-9));
+    options.restitution = Vector::Zero(1);
+    const Followed rod = followed(pulled, state({upright}, {0}), 1, options);
+    CHECK(rod.end().q[0] == doctest::Approx(upright + 0.5).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("no velocity satisfies walls that close on each other: the two are named") {
   const ImpactOutcome found =
       impact(Metric::identity(1), {{Vector{{1}}, -1, 0, false}, {Vector{{-1}}, -1, 0, false}});
