@@ -202,8 +202,9 @@ void explain_answer(Document& document, const SolvedScene& solved) {
     if (solved.states[a] != ConstraintState::inactive) explain_contact(document, solved, read, a);
   if (!solved.multipliers_are_unique())
     blocks.emplace_back(
-        Paragraph{{"The multipliers are not unique; shown are those of least norm. The acceleration and the "
-                   "reaction are unique."}});
+        Paragraph{{std::string("The multipliers are not unique; shown are ") +
+                   (solved.solution.multipliers.is_least_norm ? "those of least norm" : "some") +
+                   ". The acceleration and the reaction are unique."}});
   Table table{{{"coordinate"}, {Math{"q''", "\\ddot q"}}, {Math{"R", "R"}}}, {}};
   for (Index i = 0; i < read.acceleration.size(); ++i)
     table.rows.push_back({{Name{scene.coordinates[static_cast<std::size_t>(i)]}},

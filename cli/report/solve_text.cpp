@@ -86,8 +86,8 @@ std::string uniqueness_text(const SolvedScene& solved, const ReadableNumbers& re
   const convex::Multipliers& multipliers = solved.solution.multipliers;
   if (solved.multipliers_are_unique()) return "";
   std::string text =
-      "The multipliers are not unique (the acceleration and the reaction are); shown are those of least "
-      "norm.\n";
+      fmt::format("The multipliers are not unique (the acceleration and the reaction are); shown are {}.\n",
+                  multipliers.is_least_norm ? "those of least norm" : "some");
   if (read.ranges.empty()) return text;
   std::vector<std::string> parts;
   for (Index row : multipliers.tight) {

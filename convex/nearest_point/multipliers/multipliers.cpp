@@ -158,6 +158,7 @@ Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>&
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
   for (std::size_t k = 0; k < tight.size(); ++k)
     if (is_free[static_cast<std::size_t>(tight[k])]) held.two_sided.push_back(static_cast<Index>(k));
+  held.radii = select(problem.radii, tight);
   if (!is_dense_size(held)) return solution;
   const Solution vertex = active_set(held, {});
   if (vertex.status != Status::solved ||
@@ -230,8 +231,10 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
     if (found.unique)
       found.ranges = std::move(ranges);
     else if (!least_norm_multipliers(problem, found.tight, found.least_norm) ||
-             !is_same_reaction(problem, solution, found.least_norm, tolerance))
+             !is_same_reaction(problem, solution, found.least_norm, tolerance)) {
       found.least_norm = solution.lambda;
+      found.is_least_norm = false;
+    }
     return found;
   }
 
@@ -271,6 +274,7 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   }
   if (!is_same_reaction(problem, solution, found.least_norm, tolerance)) {
     found.least_norm = solution.lambda;
+    found.is_least_norm = false;
     found.is_in_doubt = are_exact;
   }
   const bool are_found = std::none_of(ranges.begin(), ranges.end(), [](const Interval& range) {

@@ -14,7 +14,8 @@ namespace convex::inline multiplier_sets {
 /// one-sided rows, lambda_a = 0 off the tight rows}, R = Aq - z being unique even where they are not.
 struct Multipliers {
   bool unique = true;
-  Vector least_norm;  ///< of least Euclidean norm: m
+  Vector least_norm;  ///< of least Euclidean norm, but where these are not found: m
+  bool is_least_norm = true;
   /// The m intervals of the multipliers over all dual optima; none when not asked for, or when rounding keeps
   /// one from being found.
   std::optional<std::vector<Interval>> ranges;
