@@ -97,18 +97,28 @@ double PositionSearch::moved(const TriedPosition& x) const {
   return std::sqrt(std::max(0.0, d.dot(A_ * d)));
 }
 
+/// No coordinate moves by more than its size, or 1, at once: where a gradient is small its tangent leads far
+/// away.
+Vector PositionSearch::within_reach(const TriedPosition& x, Vector d) const {
+  double most = 1;
+  for (Index k = 0; k < d.size(); ++k)
+    most = std::max(most, std::abs(d[k]) / std::max(1.0, std::abs(x.q[free_[static_cast<std::size_t>(k)]])));
+  return d / most;
+}
+
 TriedPosition PositionSearch::nearest(TriedPosition x) const {
   Vector lambda = Vector::Zero(static_cast<Index>(all_.size()));
   double last = unlimited;
   int stalled = 0;
   for (int step = 0; step < most_steps; ++step) {
-    const auto [d, next_lambda] = direction(x, lambda);
+    auto [d, next_lambda] = direction(x, lambda);
     if (d.size() == 0) {
       const double before = x.missing;
       x = restored(x, most_restorations);
       if (!(x.missing < 0.9 * before) && ++stalled > 3) return x;
       continue;
     }
+    d = within_reach(x, std::move(d));
     lambda = next_lambda;
     const double length = std::sqrt(std::max(0.0, d.dot(A_ * d)));
     const double size = std::sqrt(std::max(1.0, x.q(free_).dot(A_ * x.q(free_))));
@@ -155,7 +165,7 @@ TriedPosition PositionSearch::restored(TriedPosition x, int steps) const {
         damping *= 10;
         continue;
       }
-      const Vector d = -*step;
+      const Vector d = within_reach(x, -*step);
       const std::optional<TriedPosition> next = tried(x, d, 1);
       if (next && next->missing < x.missing) {
         better = next->missing < (1 - 1e-10) * x.missing;

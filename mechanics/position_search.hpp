@@ -54,6 +54,7 @@ class PositionSearch {
   static double square(double x) { return x * x; }
 
   void take_rounding_for_zero(TriedPosition&) const;
+  Vector within_reach(const TriedPosition&, Vector d) const;
   std::optional<TriedPosition> tried(const TriedPosition& x, const Vector& d, double part) const;
 
   /// Σ lambda_a ∂²f_a/∂q∂q by the second rates along directions.

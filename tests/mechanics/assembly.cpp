@@ -40,6 +40,11 @@ TEST_CASE("no step is divided by the rounding of a gradient, and of several ends
       mechanics::assemble(*system(rim), state({0.5, upright}, {0, 0}), {.contacts = {}, .held = {0}});
   CHECK(found.status == AssemblyStatus::solved);
   CHECK(found.moved == doctest::Approx(2 * upright / 3).epsilon(1e-12));
+  // No step goes further than the coordinate is large: th = 3.6e14 is no neighbour.
+  const SystemText stop{
+      {"z", "th"}, "(z'^2 + th'^2)/2", "", {}, {}, {}, {{"rim", "z >= 0.2*sin(th)"}, {"stop", "th >= pi/2"}}};
+  CHECK(mechanics::assemble(*system(stop), state({0.077, upright}, {0, 0}), {.contacts = {}, .held = {0}})
+            .state.q[1] == doctest::Approx(2 * upright - std::asin(0.385)).epsilon(1e-12));
   // y cos(π/2) = 1 has no y.
   const SystemText wall{
       {"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"wall", "y*cos(pi/2) - x*sin(pi/2) >= 1"}}};
