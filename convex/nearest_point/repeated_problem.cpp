@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/pivoting/critical_region.hpp"
@@ -15,19 +16,21 @@
 namespace convex {
 
 struct RepeatedProblem::State {
-  /// A working set that solves have ended with. Its critical region costs about as much as a solve for each
-  /// of its columns: it is found when so many solves have ended with the set, so that it at most doubles what
-  /// all have cost, whatever comes after.
+  /// A working set that solves have ended with, and z and s of the last. Its critical region costs about as
+  /// much as a solve for each of its columns: it is found when so many solves have ended with the set, so
+  /// that it at most doubles what all have cost, whatever comes after.
   struct SetMet {
     std::vector<Index> rows;  ///< sorted
     Index solves = 0;
     std::unique_ptr<CriticalRegion> region;
-    int trust = 0;  ///< the region is tried before a solve so many times more, unless it has the solution
-    bool was_tried = false;
+    Vector z, s;
+    int trust = 0;  ///< the region is tried where it is positive: 1 up where the set holds again, 1 down
   };
-  static constexpr std::size_t most_sets = 4;  ///< that are remembered, the last met first
-  /// trust: of a region that has just had the solution, and of one that had not, though its set holds.
+  static constexpr std::size_t most_sets = 8;  ///< that are remembered, the last met first
+  /// trust: the most, and that of a region which did not have the solution, though its set holds.
   static constexpr int most_trust = 4, least_trust = -16;
+  /// Cache lines of all regions together: beyond what a second cache has they are no quicker than solves.
+  static constexpr Index most_lines = 1 << 15;
 
   /// A working set and what is decided on it; settled: it ended with rows to begin from.
   template <class Rows>
@@ -50,12 +53,14 @@ struct RepeatedProblem::State {
   Arena arena;
   std::optional<Engine<FactoredRows>> factored;
   std::array<SetMet, most_sets> sets;
+  SetMet *tried = nullptr, *last = nullptr;  ///< whose region was tried in this solve; of the solve before
   std::vector<Index> rows_held;
   Solution solution;
 
   /// The solution of the problem as it now is.
   void find();
   bool find_in_region();
+  SetMet* likely_set();
   /// After a solve by an engine.
   void note_set(GramWorkingSet&);
 };
@@ -64,7 +69,7 @@ RepeatedProblem::RepeatedProblem(NearestPointProblem problem, const Accuracy& ac
   validate(problem);
   if (has_gram_matrix(problem) && problem.A.kind() == MetricKind::diagonal)
     problem = with_dense_metric(std::move(problem));
-  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, {}, {}, {}, {}, {}});
+  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, {}, {}, {}, {}, {}, {}, {}});
 }
 
 RepeatedProblem::~RepeatedProblem() = default;
@@ -89,19 +94,41 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   return state.solution;
 }
 
-bool RepeatedProblem::State::find_in_region() {
-  for (std::size_t k = 0; k < most_sets; ++k) {
-    SetMet& set = sets[k];
-    set.was_tried = set.region && set.trust > 0;
-    if (!set.was_tried) continue;
-    set.trust -= 1;
-    if (!solve_in_critical_region(*set.region, problem, accuracy, solution)) continue;
-    set.trust = most_trust;
-    std::rotate(sets.begin(), sets.begin() + static_cast<std::ptrdiff_t>(k),
-                sets.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-    return true;
+/// The set whose last problem is much nearer to this one than those of all others, by the changes of z and s
+/// as parts of them; else of the sets whose regions are trusted that which most solves have ended with.
+RepeatedProblem::State::SetMet* RepeatedProblem::State::likely_set() {
+  constexpr double much = 0x1p-4;  // of the squared distance
+  SetMet *likely = nullptr, *nearest = nullptr;
+  for (SetMet& set : sets)
+    if (set.trust > 0 && set.region && (likely == nullptr || set.solves > likely->solves)) likely = &set;
+  if (sets[1].solves == 0) return likely;
+  const double of_z = 1 / (problem.z.squaredNorm() + 1e-300), of_s = 1 / (problem.s.squaredNorm() + 1e-300);
+  double least = infinity, next = infinity;
+  for (SetMet& set : sets) {
+    if (set.solves == 0) break;
+    const double at = of_z * (set.z - problem.z).squaredNorm() + of_s * (set.s - problem.s).squaredNorm();
+    next = std::min(next, std::max(at, least));
+    if (at < least) nearest = &set;
+    least = std::min(least, at);
   }
-  return false;
+  if (!(least < much * next)) return likely;
+  return nearest->region && nearest->trust >= 0 ? nearest : nullptr;
+}
+
+bool RepeatedProblem::State::find_in_region() {
+  tried = likely_set();
+  if (tried == nullptr) return false;
+  if (!solve_in_critical_region(*tried->region, problem, accuracy, solution)) {
+    tried->trust = std::max(0, tried->trust - 1);
+    return false;
+  }
+  if (tried == last) tried->trust = std::min(tried->trust + 1, most_trust);
+  last = tried;
+  tried->solves += 1;
+  if (sets[1].solves == 0) return true;  // there is no choice
+  tried->z = problem.z;
+  tried->s = problem.s;
+  return true;
 }
 
 void RepeatedProblem::State::note_set(GramWorkingSet& held) {
@@ -111,13 +138,22 @@ void RepeatedProblem::State::note_set(GramWorkingSet& held) {
                           [&](const SetMet& one) { return one.solves > 0 && one.rows == rows_held; });
   if (set == sets.end()) {
     set -= 1;
-    *set = SetMet{rows_held, 0, nullptr, 0, false};
+    *set = SetMet{rows_held, 0, nullptr, {}, {}, 0};
   }
+  if (set == tried)
+    set->trust = least_trust;
+  else if (set->trust < 0 || set == last)
+    set->trust += 1;
+  set->z = problem.z;
+  set->s = problem.s;
   std::rotate(sets.begin(), set, set + 1);
   SetMet& met = sets.front();
+  last = &met;
   met.solves += 1;
-  if (met.solves == problem.dimension() + held.point().size) met.region = find_critical_region(held, problem);
-  met.trust = met.was_tried ? least_trust : met.trust + 1;
+  if (met.solves != problem.dimension() + held.point().size) return;
+  Index lines = CriticalRegion::lines(held.point());
+  for (const SetMet& one : sets) lines += one.region ? one.region->arena.lines() : 0;
+  if (lines <= most_lines) met.region = find_critical_region(held, problem);
 }
 
 void RepeatedProblem::State::find() {

@@ -88,13 +88,21 @@ bool find_column(GramWorkingSet& set, Index j, CriticalRegion& region) {
 
 }  // namespace
 
+/// Cache lines that it takes.
+Index CriticalRegion::lines(const GramPoint& held) {
+  const Index columns = held.n + held.size, stride = padded(columns), m = padded(held.all),
+              side_by_side = held.all <= few_rows ? m * held.n : 0;
+  return (9 * stride + 2 * stride * columns + held.ld * columns + 6 * held.ld + 6 * padded(held.size) +
+          5 * m + side_by_side) /
+         8;
+}
+
 CriticalRegion::CriticalRegion(GramPoint& held) : columns(held.n + held.size), stride(padded(columns)) {
   p.n = held.n, p.all = held.all, p.ld = held.ld, p.size = held.size;
   p.T = held.T, p.inverse = held.inverse, p.A = held.A, p.U = held.U;
   has_all = p.all <= few_rows;
-  const Index k = padded(p.size), m = padded(p.all), side_by_side = has_all ? m * p.n : 0;
-  arena.start((9 * stride + 2 * stride * columns + p.ld * columns + 6 * p.ld + 6 * k + 5 * m + side_by_side) /
-              8);
+  const Index k = padded(p.size), m = padded(p.all);
+  arena.start(lines(held));
   for (double** v : {&unit, &error, &length, &pull, &x, &x_leading, &x_rest, &y, &y_low})
     *v = arena.take_filled(stride, 0.0);
   split = arena.take_filled(2 * stride * columns, 0.0);
@@ -120,7 +128,7 @@ CriticalRegion::CriticalRegion(GramPoint& held) : columns(held.n + held.size), s
   for (Index j = 0; j < columns; ++j)
     std::copy_n(j < p.n ? p.A + j * p.n : p.U + p.rows[j - p.n] * p.n, p.n, balance + j * p.ld);
   if (!has_all) return;
-  raw = arena.take<double>(side_by_side);
+  raw = arena.take<double>(m * p.n);
   Index rows[few_rows];
   for (Index a = 0; a < p.all; ++a) rows[a] = a;
   for (Index a = 0; a < p.all; a += 8)

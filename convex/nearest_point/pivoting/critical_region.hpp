@@ -27,6 +27,7 @@ struct CriticalRegion {
 
   /// Room for the map of the rows held.
   explicit CriticalRegion(GramPoint& held);
+  static Index lines(const GramPoint& held);
 
   Arena arena;
   GramPoint p{};                  ///< the rows W, in order, and the point that the map gives

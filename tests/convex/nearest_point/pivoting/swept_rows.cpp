@@ -255,6 +255,37 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("points that come again, each with a working set of its own, keep their answers") {
+  for (const auto& [n, m] : {std::pair<Index, Index>{12, 20}, {60, 90}}) {
+    CAPTURE(n);
+    auto [problem, truth] = oracles::planted_problem(7, n, m, Difficulty::none);
+    const Vector z = problem.z, s = problem.s;
+    std::mt19937 generator(1);
+    convex::RepeatedProblem repeated(problem);
+    std::vector<NearestPointProblem> points(6, problem);
+    std::vector<Solution> once;
+    int solved = 0;
+    for (NearestPointProblem& point : points) {
+      point.z = jolted(z, generator);
+      point.s = jolted(s, generator);
+      once.push_back(convex::active_set(point));
+      solved += once.back().status == Status::solved;
+    }
+    CHECK(solved > 1);
+    for (int turn = 0; turn < 130; ++turn)
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const Solution& again = repeated.solve(points[k].z, points[k].s);
+        if (turn % 10 != 9) continue;
+        CHECK(again.status == once[k].status);
+        if (again.status != Status::solved || once[k].status != Status::solved) continue;
+        const double unit = scale(points[k], once[k].q);
+        CHECK(problem.A.norm(again.q - once[k].q) <= few_roundings * unit);
+        CHECK((again.lambda - once[k].lambda).norm() <= 1e-9 * (1 + once[k].lambda.norm()));
+        CHECK(again.error_bound <= few_roundings * unit);
+      }
+  }
+}
+
 TEST_CASE(
     "an answer left in doubles is within its bound of the one rounded right, and the bound within reach") {
   Accuracy doubles;
