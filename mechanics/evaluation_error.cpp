@@ -178,6 +178,7 @@ void touch_within_error(GaussSolution& found, const convex::NearestPointProblem&
       touches[k] = most * length[a] <= of_forces;
     }
     if (!touches[k]) continue;
+    found.taken_for_zero += std::abs(multipliers.least_norm[a]) * length[a];
     multipliers.least_norm[a] = 0;
     if (multipliers.ranges) (*multipliers.ranges)[k] = {0, 0};
   }

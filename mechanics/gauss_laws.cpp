@@ -135,8 +135,9 @@ void balance_law(const Judged& j, LawReport& report) {
   constexpr double of_dependences = 2 * 64 * unit_roundoff;
   const double of_loads =
       roundings + (j.solution.multipliers.unique ? 0 : of_dependences * std::sqrt(j.steps()));
-  report.checks.push_back(check_that("A q'' = z + sum of lambda_a u_a", j.problem.A.dual_norm(rest),
-                                     j.error() + roundings * j.size + of_loads * loads));
+  report.checks.push_back(
+      check_that("A q'' = z + sum of lambda_a u_a", j.problem.A.dual_norm(rest),
+                 j.error() + j.solution.taken_for_zero + roundings * j.size + of_loads * loads));
 }
 
 /// The reaction from the dual alone, with what made it.

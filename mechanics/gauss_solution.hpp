@@ -35,6 +35,8 @@ struct GaussSolution {
   double gauss = 0;                 ///< G = ½ q''·A q'' - z·q''
   Hypothesis hypothesis;
   std::optional<ReactionFromDual> from_dual;
+  /// Σ |lambda_a| ||u_a||_(A⁻¹) of contacts whose multipliers were taken for 0 (`touch_within_error`).
+  double taken_for_zero = 0;
   std::optional<Reduced> reduced;  ///< when accuracy.reduce is off
   /// The answer is that of the numbers as they were written, in fractions; their doubles did not decide it.
   bool as_written = false;

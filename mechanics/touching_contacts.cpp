@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/multipliers/coupled_forces.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/zero_tolerances.hpp"
 
@@ -24,9 +25,9 @@ constexpr std::size_t most_looks = 20;
 /// Multipliers are compared with their own errors up to so many; each takes a solution.
 constexpr std::size_t most_directions = 64;
 
-/// Is the acceleration the same without the rows `left_out`, in order?
+/// Is the acceleration the same without the rows `left_out`, in order, beside this size?
 bool is_same_without(const std::vector<Index>& left_out, const convex::NearestPointProblem& problem,
-                     const convex::Solution& solution) {
+                     const convex::Solution& solution, double size) {
   std::vector<Index> kept, two_sided;
   for (Index a = 0; a < problem.rows(); ++a) {
     if (std::binary_search(left_out.begin(), left_out.end(), a)) continue;
@@ -38,7 +39,7 @@ bool is_same_without(const std::vector<Index>& left_out, const convex::NearestPo
                          convex::select(problem.radii, kept)});
   if (found.status != convex::Status::solved) return false;
   const double moved = problem.A.norm(found.q - solution.q);
-  return moved <= solution.error_bound + found.error_bound + zero_part(problem) * solution.acceleration_norm;
+  return moved <= solution.error_bound + found.error_bound + zero_part(problem) * size;
 }
 
 /// The direction that feels one of the tight rows alone; none where that depends on the others.
@@ -92,24 +93,28 @@ std::vector<Index> touching_contacts(const convex::NearestPointProblem& problem,
                       problem.two_sided.end(), std::back_inserter(one_sided));
   if (one_sided.empty()) return found;
   const convex::Vector length = convex::dual_lengths(problem, multipliers.tight);
-  double push = std::max(solution.acceleration_norm, solution.force_norm);
-  for (const Index a : multipliers.tight)
-    push = std::max(push, std::abs(multipliers.least_norm[a]) * length[a]);
+  const auto forces =
+      convex::coupled_forces(problem, solution, multipliers.least_norm, multipliers.tight, length);
+  const convex::Vector push = forces.pushes.cwiseMax(forces.others);
+  double size = solution.acceleration_norm;
   std::vector<Index> weak;
   for (const Index a : one_sided) {
     double most = std::abs(multipliers.least_norm[a]);
     if (!multipliers.unique)
       most = multipliers.ranges ? (*multipliers.ranges)[static_cast<std::size_t>(a)].high
                                 : std::numeric_limits<double>::infinity();
-    if (most * length[a] <= std::min(tolerance, zero_part(problem)) * push)
+    if (most * length[a] <= std::min(tolerance, zero_part(problem)) * push[a]) {
       found.push_back(a);
-    else if (most * length[a] <= tolerance * push)
+    } else if (most * length[a] <= tolerance * push[a]) {
       weak.push_back(a);
+      size = std::min(size, push[a]);
+    }
   }
   if (weak.empty()) return found;
-  if (!is_same_without(weak, problem, solution)) {
+  if (!is_same_without(weak, problem, solution, size)) {
     const bool one_by_one = multipliers.unique && weak.size() > 1 && weak.size() <= most_looks;
-    std::erase_if(weak, [&](Index a) { return !one_by_one || !is_same_without({a}, problem, solution); });
+    std::erase_if(weak,
+                  [&](Index a) { return !one_by_one || !is_same_without({a}, problem, solution, size); });
   }
   std::vector<Index> all;
   std::merge(found.begin(), found.end(), weak.begin(), weak.end(), std::back_inserter(all));

@@ -199,6 +199,31 @@ TEST_CASE("a condition that no coordinate has a part in is decided as written") 
   }
 }
 
+TEST_CASE("a light contact is not weighed against a press that nothing couples to it") {
+  const Folder folder;
+  const std::string file = folder.write(
+      "press.toml",
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n[system.forces]\nx = -3\n"
+      "y = \"-1e12\"\n[system.constraints]\na = \"x >= 0\"\nb = \"cos(0.7)*x >= 0\"\n"
+      "press = \"y >= 0\"\n[state]\nposition = { x = 0, y = 0 }\n");
+  const Json answer = Json::parse(run({"solve", "--json", file}).out);
+  CHECK(answer["multipliers_unique"] == false);
+  for (const char* contact : {"a", "b"}) CHECK(answer["constraints"][contact]["state"] == "persists");
+  CHECK(answer["multiplier_ranges"]["a"][1].get<double>() == doctest::Approx(3));
+}
+
+TEST_CASE("no law fails by a multiplier that was taken for 0 where all forces are rounding") {
+  const Folder folder;
+  const std::string file =
+      folder.write("rest.toml",
+                   "[system]\ncoordinates = [\"a\", \"b\"]\n"
+                   "kinetic = \"((sin(a) + sin(b))'^2 + (cos(a) + cos(b))'^2)/2\"\n"
+                   "potential = \"1/2*(a - atan(2))^2 + cos(2*b)\"\n[system.constraints]\n"
+                   "c0 = \"-9*a - b >= -9*atan(2) - pi/2\"\nc1 = \"sin(2*a) = sin(2*atan(2))\"\n[state]\n"
+                   "position = { a = \"atan(2)\", b = \"pi/2\" }\n");
+  CHECK(run({"check", file}).code == 0);
+}
+
 TEST_CASE("a condition in a state is decided as written, of what the state gives too") {
   const Folder folder;
   const auto y2 = [&](const std::string& state) {

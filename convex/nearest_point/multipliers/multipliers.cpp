@@ -9,6 +9,7 @@
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
+#include "convex/nearest_point/multipliers/coupled_forces.hpp"
 #include "convex/nearest_point/multipliers/least_norm.hpp"
 #include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
 #include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
@@ -68,11 +69,12 @@ class MultiplierPolyhedron {
 /// 1 for a positive multiplier of a one-sided row, else 0. Whether there are other multipliers is a question
 /// of directions w, Uᵀw = 0, that leave lambda + t w admissible for small t > 0: w_a >= 0 where lambda_a is
 /// 0. The sizes of the positive ones do not enter, however far apart they are.
-Vector signs_of(const Vector& lambda, const Vector& length, double rounding,
+Vector signs_of(const Vector& lambda, const Vector& length, const Vector& rounding,
                 const std::vector<bool>& is_free) {
   Vector signs = Vector::Zero(lambda.size());
   for (Index a = 0; a < lambda.size(); ++a)
-    if (!is_free[static_cast<std::size_t>(a)] && lambda[a] * length[a] > rounding) signs[a] = 1 / length[a];
+    if (!is_free[static_cast<std::size_t>(a)] && lambda[a] * length[a] > rounding[a])
+      signs[a] = 1 / length[a];
   return signs;
 }
 
@@ -245,11 +247,10 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   // They are unique when every dependent row keeps its multiplier 0.
   Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
   length = (length.array() > 0).select(length, 1);
-  const double largest =
-      solution.lambda.size() > 0 ? solution.lambda.cwiseAbs().cwiseProduct(length).maxCoeff() : 0;
+  const CoupledForces forces = coupled_forces(problem, solution, solution.lambda, found.tight, length);
   // Where z is rounded, so are the multipliers that hold against it.
   constexpr double roundings_of_multipliers = 64 * unit_roundoff;
-  const double rounding = largest * (problem.radii ? tolerance : roundings_of_multipliers);
+  const Vector rounding = forces.pushes * (problem.radii ? tolerance : roundings_of_multipliers);
   const Vector signs = signs_of(solution.lambda, length, rounding, is_free);
   for (const Dependence& rows : *groups) {
     // Rows within radii are what they are counted as.
@@ -281,12 +282,11 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
     return std::isnan(range.low) || std::isnan(range.high);
   });
   // What rounding leaves of rows that hold against nothing is no freedom.
-  const double no_force = (problem.radii ? zero_where_z_is_rounded : zero_in_doubles) *
-                          std::max(solution.force_norm, solution.acceleration_norm);
+  const double no_force = problem.radii ? zero_where_z_is_rounded : zero_in_doubles;
   if (want_ranges && are_found && !found.unique)
     found.unique = std::all_of(found.tight.begin(), found.tight.end(), [&](Index a) {
       const Interval& range = ranges[static_cast<std::size_t>(a)];
-      return range.low == range.high || (range.high - range.low) * length[a] <= no_force;
+      return range.low == range.high || (range.high - range.low) * length[a] <= no_force * forces.others[a];
     });
   if ((want_ranges && are_found) || found.unique) found.ranges = std::move(ranges);
   return found;

@@ -1,0 +1,38 @@
+#include "convex/nearest_point/multipliers/coupled_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/reductions/islands.hpp"
+
+namespace convex::inline multiplier_sets {
+
+CoupledForces coupled_forces(const NearestPointProblem& problem, const Solution& solution,
+                             const Vector& lambda, const std::vector<Index>& rows, const Vector& length) {
+  const Islands islands = find_islands(problem);
+  const double of_whole = std::max(solution.acceleration_norm, solution.force_norm);
+  Vector pushes = Vector::Zero(std::max<Index>(1, islands.count)),
+         others = Vector::Constant(pushes.size(), of_whole);
+  if (islands.count > 1) {  // ||·||_D and ||·||_(D⁻¹) stand for the norms, D the diagonal of A
+    const Vector diagonal = problem.A.diagonal();
+    Vector z = Vector::Zero(others.size()), q = z;
+    for (Index i = 0; i < problem.dimension(); ++i) {
+      const Index island = islands.of_coordinate[static_cast<std::size_t>(i)];
+      z[island] += problem.z[i] * problem.z[i] / diagonal[i];
+      q[island] += solution.q[i] * solution.q[i] * diagonal[i];
+    }
+    others = z.cwiseMax(q).cwiseSqrt();
+  }
+  for (const Index a : rows)
+    if (const Index island = islands.of_row[static_cast<std::size_t>(a)]; island >= 0)
+      pushes[island] = std::max(pushes[island], std::abs(lambda[a]) * length[a]);
+  CoupledForces found{Vector::Zero(problem.rows()), Vector::Constant(problem.rows(), of_whole)};
+  for (const Index a : rows)
+    if (const Index island = islands.of_row[static_cast<std::size_t>(a)]; island >= 0) {
+      found.pushes[a] = pushes[island];
+      found.others[a] = others[island];
+    }
+  return found;
+}
+
+}  // namespace convex::inline multiplier_sets
