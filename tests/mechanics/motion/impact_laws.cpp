@@ -100,6 +100,15 @@ TEST_CASE("a gradient that is 0 but for rounding takes no impulse and holds noth
   }
 }
 
+TEST_CASE("what closes within the contact tolerance at the start has a part in the first impact") {
+  // near is struck at 2e-10, which counts as 0 by itself; e = 1 gives v+ = (-2, 3) all the same.
+  const SystemText slow{
+      {"a", "x"}, "(a'^2 + x'^2)/2", "", {}, {}, {}, {{"near", "-1e-10*a >= 0"}, {"block", "x + a >= 0"}}};
+  const Followed near = followed(slow, state({0, 0}, {2, -3}), 0.1, restitution(slow, 1));
+  CHECK(near.end().v[0] == doctest::Approx(-2));
+  CHECK(near.end().v[1] == doctest::Approx(3));
+}
+
 TEST_CASE("no velocity satisfies walls that close on each other: the two are named") {
   const ImpactOutcome found =
       impact(Metric::identity(1), {{Vector{{1}}, -1, 0, false}, {Vector{{-1}}, -1, 0, false}});
