@@ -139,6 +139,7 @@ void RepeatedProblem::State::note_set(GramWorkingSet& held) {
   if (set == sets.end()) {
     set -= 1;
     *set = SetMet{rows_held, 0, nullptr, {}, {}, 0};
+    tried = last = nullptr;  // one of them may have been the set forgotten
   }
   if (set == tried)
     set->trust = least_trust;

@@ -14,14 +14,14 @@ CoupledForces coupled_forces(const NearestPointProblem& problem, const Solution&
   Vector pushes = Vector::Zero(std::max<Index>(1, islands.count)),
          others = Vector::Constant(pushes.size(), of_whole);
   if (islands.count > 1) {  // ||·||_D and ||·||_(D⁻¹) stand for the norms, D the diagonal of A
-    const Vector diagonal = problem.A.diagonal();
+    const Vector unit = problem.A.diagonal().cwiseSqrt();
     Vector z = Vector::Zero(others.size()), q = z;
     for (Index i = 0; i < problem.dimension(); ++i) {
       const Index island = islands.of_coordinate[static_cast<std::size_t>(i)];
-      z[island] += problem.z[i] * problem.z[i] / diagonal[i];
-      q[island] += solution.q[i] * solution.q[i] * diagonal[i];
+      z[island] = std::hypot(z[island], problem.z[i] / unit[i]);  // squares may leave the range of doubles
+      q[island] = std::hypot(q[island], solution.q[i] * unit[i]);
     }
-    others = z.cwiseMax(q).cwiseSqrt();
+    others = z.cwiseMax(q);
   }
   for (const Index a : rows)
     if (const Index island = islands.of_row[static_cast<std::size_t>(a)]; island >= 0)
