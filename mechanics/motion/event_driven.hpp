@@ -68,8 +68,10 @@ class Motion::EventDriven final : public Motion::Course {
   };
   Switches switches_before_jump(const std::vector<Index>& at_zero) const;
   std::vector<Index> branches_after_jump(const Switches& before);
-  /// A new arc from here. In question: contacts that may persist, and switches at 0.
-  void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches);
+  /// A new arc from here. In question: contacts that may persist, and switches at 0. Of contacts whose
+  /// gradient vanishes, which are in question too, none can push: where one would have to, the motion stops.
+  void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches,
+                 const std::vector<Index>& without_gradient = {});
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   const std::vector<Index>& switches);
   bool is_consistent(const std::vector<Index>& switches);

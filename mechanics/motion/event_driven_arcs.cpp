@@ -37,6 +37,9 @@ bool is_rising(const std::vector<double>& sizes, double h) {
   return last >= before;
 }
 
+/// An impact within so many roundings of the end of the motion is at its end.
+constexpr double roundings_of_end = 4;
+
 }  // namespace
 
 /// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
@@ -153,6 +156,19 @@ void Motion::EventDriven::fill_next() {
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
       step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
+}
+
+/// Free contacts whose f comes to 0 at the end of the motion asked for, as far as the rounding of time tells:
+/// what the series left of f there need not be below 0.
+std::vector<Zero> Motion::EventDriven::closing_at_the_end() {
+  std::vector<Zero> found;
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    if (is_two_sided(a) || is_held_[static_cast<std::size_t>(a)]) continue;
+    const double f = expansion_.f(a), rate = expansion_.rate(a);
+    if (rate < -expansion_.rounding_of_rate(a) && f <= -rate * roundings_of_end * epsilon * clock())
+      found.push_back({Zero::Of::constraint, a, done.length, false});
+  }
+  return found;
 }
 
 void Motion::EventDriven::stop_at_vanishing_gradient(Index a) {

@@ -12,9 +12,6 @@ namespace {
 /// f of a closed contact is 0 up to so many roundings of what it is the sum of.
 constexpr double roundings_of_closed = 16;
 
-/// An impact within so many roundings of the end of the motion is at its end.
-constexpr double roundings_of_end = 4;
-
 /// Bounces lower than so many roundings of f come at times that rounding decides.
 constexpr double roundings_of_bounce = 64;
 
@@ -54,29 +51,18 @@ std::vector<Zero> Motion::EventDriven::closing_at_once() {
   return found;
 }
 
-/// Free contacts whose f comes to 0 at the end of the motion asked for, as far as the rounding of time tells:
-/// what the series left of f there need not be below 0.
-std::vector<Zero> Motion::EventDriven::closing_at_the_end() {
-  std::vector<Zero> found;
-  for (Index a = 0; a < expansion_.constraints(); ++a) {
-    if (is_two_sided(a) || is_held_[static_cast<std::size_t>(a)]) continue;
-    const double f = expansion_.f(a), rate = expansion_.rate(a);
-    if (rate < -expansion_.rounding_of_rate(a) && f <= -rate * roundings_of_end * epsilon * clock())
-      found.push_back({Zero::Of::constraint, a, done.length, false});
-  }
-  return found;
-}
-
 /// What comes to 0 at the end of a step, all at once.
 void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
-  std::vector<Index> closing, touching, switches, held;
+  std::vector<Index> closing, touching, switches, held, lost;
   for (const Index a : persist_)
     if (!is_two_sided(a)) held.push_back(a);
   for (const Zero& zero : zeros) {
     if (zero.of == Zero::Of::branch) switches.push_back(zero.which);
     if (zero.of != Zero::Of::constraint) continue;
-    if (expansion_.has_lost_gradient(zero.which)) return stop_at_vanishing_gradient(zero.which);
-    const bool closes = expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
+    // Without its gradient a contact closes at no speed: it is touched, and d²f/dt² tells whether it opens.
+    const bool is_lost = expansion_.has_lost_gradient(zero.which);
+    if (is_lost) lost.push_back(zero.which);
+    const bool closes = !is_lost && expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
     (closes && !zero.is_touch && !zero.is_soft ? closing : touching).push_back(zero.which);
     if (zero.is_touch)
       remark(RemarkKind::touch, constraint_name(zero.which) +
@@ -92,6 +78,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
       switches.push_back(static_cast<Index>(k));
   tell_blur(zeros);
   if (closing.size() > 1) tell_order(zeros, closing);
+  if (!closing.empty() && !lost.empty()) return stop_at_vanishing_gradient(lost.front());
   if (!closing.empty()) {  // with all contacts that are closed, those that open included
     for (Index a = 0; a < expansion_.constraints(); ++a)
       if (!is_two_sided(a) && !contains(closing, a) &&
@@ -102,7 +89,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   }
   const Vector before = state.v;
   if (switches.empty()) note_unloading(zeros);
-  begin_arc(united(held, touching), switches);
+  begin_arc(united(held, touching), switches, lost);
   unloaded_.clear();
   if (status != MotionStatus::done) return;
   if (!touching.empty()) event(EventKind::contact, touching, before);
@@ -285,7 +272,8 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   return found;
 }
 
-void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches) {
+void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches,
+                                    const std::vector<Index>& without_gradient) {
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   std::fill(is_weak_.begin(), is_weak_.end(), false);
@@ -303,6 +291,8 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   }
   for (const Index a : answer->excluding)
     if (expansion_.is_singular(a)) return stop_at_vanishing_gradient(a);
+  for (const Index a : without_gradient)
+    if (contains(answer->persist, a)) return stop_at_vanishing_gradient(a);
   if (!answer->excluding.empty()) {
     status = MotionStatus::infeasible;
     excluding = answer->excluding;

@@ -88,13 +88,30 @@ bool Motion::TimeStepping::advance(double until) {
   return status == MotionStatus::done || state.t > before;
 }
 
+/// What f is the sum of by its gradient: it changes by so much when q does by a part of itself, or of 1.
+double Motion::TimeStepping::size_along(const State& at, const convex::SparseRows& U, Index k) {
+  double size = 0;
+  for (convex::SparseRows::InnerIterator u(U, k); u; ++u)
+    size += std::abs(u.value()) * (1 + std::abs(at.q[u.col()]));
+  return size;
+}
+
+/// Those that stay, and those whose f comes to 0, within the contact tolerance of f and of q: where the
+/// gradient is nearly 0, f is far below its tolerance while q is far from where it is 0.
 std::vector<Index> Motion::TimeStepping::closed(const State& ahead) const {
   const ConstraintRates rates = system.constraint_rates(ahead);
-  std::vector<Index> found;
+  std::vector<Index> found, near;
   for (Index a = 0; a < rates.f.size(); ++a)
-    if (is_two_sided(a) || rests_[static_cast<std::size_t>(a)] ||
-        rates.f[a] <= options.contact_tolerance[a] * rates.f_scale[a])
+    if (is_two_sided(a) || rests_[static_cast<std::size_t>(a)] || rates.f[a] <= 0)
       found.push_back(a);
+    else if (rates.f[a] <= options.contact_tolerance[a] * rates.f_scale[a])
+      near.push_back(a);
+  if (near.empty()) return found;
+  const convex::SparseRows U = system.contact_rows(ahead, near).U;
+  for (std::size_t k = 0; k < near.size(); ++k)
+    if (rates.f[near[k]] <= options.contact_tolerance[near[k]] * size_along(ahead, U, static_cast<Index>(k)))
+      found.push_back(near[k]);
+  std::sort(found.begin(), found.end());
   return found;
 }
 
@@ -116,9 +133,7 @@ void Motion::TimeStepping::take_rounding_for_zero(const State& middle, const std
   std::vector<Index> rows, small;
   for (Index k = 0; k < U.rows(); ++k) {
     const Index a = constraints[static_cast<std::size_t>(k)];
-    double size = 0;
-    for (convex::SparseRows::InnerIterator u(U, k); u; ++u)
-      size += std::abs(u.value()) * (1 + std::abs(middle.q[u.col()]));
+    const double size = size_along(middle, U, k);
     if (is_two_sided(a) || size == 0 || size > suspicious_gradient * rates.f_scale[a]) continue;
     rows.push_back(k);
     small.push_back(a);

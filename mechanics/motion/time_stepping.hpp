@@ -41,6 +41,7 @@ class Motion::TimeStepping final : public Motion::Course {
   };
 
   void take_step(double h, double end);
+  static double size_along(const State& at, const convex::SparseRows& U, Index k);
   std::vector<Index> closed(const State& ahead) const;
   void find_inertia(const State& at);
   void take_rounding_for_zero(const State& middle, const std::vector<Index>& constraints,

@@ -147,6 +147,37 @@ TEST_CASE(
   CHECK(followed(timed, {1, Vector{{0}}, Vector{{0}}}, 2).motion.status() == MotionStatus::infeasible);
 }
 
+TEST_CASE(
+    "a motion goes on through a place where a contact's gradient vanishes and its second derivative opens "
+    "it") {
+  const double upright = std::acos(-1.0) / 2;
+  for (const char* reach : {"sin(a) <= 1", "(a - pi/2)^2 >= 0", "1 - cos(a - pi/2)^2 >= 0"}) {
+    CAPTURE(reach);
+    const SystemText crank{{"a"}, "a'^2/2", "", {}, {}, {}, {{"reach", reach}}};
+    for (const double e : {0.0, 0.5, 1.0}) {
+      const Followed found = followed(crank, state({upright - 0.5}, {1}), 1, restitution(crank, e));
+      CHECK(found.motion.status() == MotionStatus::done);
+      CHECK(found.motion.record().impacts == 0);
+      CHECK(found.end().q[0] == doctest::Approx(upright + 0.5).epsilon(1e-14));
+      CHECK(found.end().v[0] == doctest::Approx(1).epsilon(1e-14));
+    }
+    // In steps so short that one ends where f is within the contact tolerance and its gradient is not 0.
+    MotionOptions options = restitution(crank, 1);
+    options.method = MotionMethod::time_stepping;
+    options.step = 1e-5;
+    const Followed stepped = followed(crank, state({upright - 0.0101}, {1}), 0.02, options);
+    CHECK(stepped.end().v[0] == doctest::Approx(1).epsilon(1e-9));
+  }
+  // Where f'' has the other sign, or is 0, nothing tells what becomes of it, and no velocity is lost.
+  for (const char* wall : {"(a - pi/2)^3 <= 0", "a - pi/2 <= sin(a - pi/2)"}) {
+    const SystemText stop{{"a"}, "a'^2/2", "", {}, {}, {}, {{"wall", wall}}};
+    const Followed found = followed(stop, state({upright - 0.5}, {1}), 1);
+    CHECK(found.motion.status() == MotionStatus::stopped);
+    CHECK(found.motion.why().find("vanishes") != std::string::npos);
+    CHECK(found.end().v[0] == doctest::Approx(1));
+  }
+}
+
 TEST_CASE("a motion that grows without bound stops while its energy is a double") {
   const SystemText text{{"x"}, "x'^2/2", "-1e3*x^2", {}, {}, {}, {}};
   const Followed found = followed(text, state({0}, {1}), 100);
