@@ -39,15 +39,42 @@ bool least_norm_in_fractions(const Dependence& rows, const std::vector<Index>& n
   return true;
 }
 
-}  // namespace
+/// The same dependences in a basis in which no coefficient is large, and the multipliers with which its rows
+/// alone pull the same: where rows are told in units far apart, those of another one keep no digit of the
+/// least ones. u_p = Σ T(k, p) u_k takes the place of u_k where T(k, p) is largest, by a step of Gauss and
+/// Jordan.
+void take_rows_with_small_coefficients(Dependence& rows, Vector& lambda) {
+  constexpr double large = 16;
+  // Each step multiplies the volume of the basis by more than `large`.
+  constexpr Index most_steps = 200;
+  for (Index step = 0; step < most_steps; ++step) {
+    Index k = 0, p = 0;
+    const double pivot = rows.T.cwiseAbs().maxCoeff(&k, &p);
+    if (!(pivot > large) || !std::isfinite(pivot)) return;
+    const Vector column = rows.T.col(p);
+    const Vector row = rows.T.row(k).transpose() / column[k];
+    Index &leaving = rows.basic[static_cast<std::size_t>(k)],
+          &entering = rows.dependent[static_cast<std::size_t>(p)];
+    const double weight = lambda[leaving] / column[k];
+    for (Index i = 0; i < column.size(); ++i)
+      if (i != k) lambda[rows.basic[static_cast<std::size_t>(i)]] -= column[i] * weight;
+    lambda[leaving] = 0;
+    lambda[entering] += weight;
+    rows.T -= column * row.transpose();
+    rows.T.row(k) = row.transpose();
+    rows.T.col(p) = -column / column[k];
+    rows.T(k, p) = 1 / column[k];
+    std::swap(leaving, entering);
+  }
+}
 
-void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector& lambda) {
+/// Of one group, beside whatever the others have.
+void least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_free, Vector& lambda) {
   const Index d = rows.T.cols(), k = rows.T.rows();
   std::vector<Index> names = rows.basic;
   names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
   Vector start(k + d);
   for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
-  if (!start.allFinite()) return;  // a multiplier is beyond doubles
   const auto take = [&](const Vector& best) {
     const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
     for (Index j = 0; j < k + d; ++j) {
@@ -88,6 +115,64 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   const Solution solution = active_set(problem, {.limit = 0});
   if (solution.q.size() != d) return;
   take(start + N * solution.q);
+}
+
+/// What lambda misses of a reaction, put on the rows that others depend on.
+bool put_missing_force_on_basis(const NearestPointProblem& problem, const Vector& reaction,
+                                const std::vector<Dependence>& groups, Vector& lambda) {
+  std::vector<Index> basic;
+  for (const Dependence& rows : groups) basic.insert(basic.end(), rows.basic.begin(), rows.basic.end());
+  const auto k = static_cast<Index>(basic.size());
+  NearestPointProblem held{problem.A, problem.U.transpose_times(lambda) - reaction, problem.U.select(basic),
+                           Vector::Zero(k), std::vector<Index>(basic.size())};
+  std::iota(held.two_sided.begin(), held.two_sided.end(), Index{0});
+  const Solution pushed = active_set(held, {.limit = 0});
+  if (pushed.lambda.size() != k) return false;
+  lambda(basic) += pushed.lambda;
+  return true;
+}
+
+Vector reaction_of(const NearestPointProblem& problem, const Solution& solution) {
+  return problem.A.multiply(solution.q) - problem.z;
+}
+
+}  // namespace
+
+bool is_same_reaction(const NearestPointProblem& problem, const Solution& solution, const Vector& lambda,
+                      double tolerance) {
+  const double small = tolerance * std::max(solution.force_norm, solution.acceleration_norm);
+  return problem.A.dual_norm(problem.U.transpose_times(lambda - solution.lambda)) <= small ||
+         problem.A.dual_norm(problem.U.transpose_times(lambda) - reaction_of(problem, solution)) <= small;
+}
+
+bool least_norm(const NearestPointProblem& problem, const Solution& solution, std::vector<Dependence> groups,
+                const std::vector<bool>& is_free, double tolerance, Vector& lambda) {
+  if (groups.empty()) return true;
+  const auto is_finite = [&](const Dependence& rows) {
+    return rows.T.allFinite() && lambda(rows.basic).allFinite();
+  };
+  if (!std::all_of(groups.begin(), groups.end(), is_finite)) return false;
+  const Vector reaction = reaction_of(problem, solution);
+  const auto missing = [&] { return problem.A.dual_norm(problem.U.transpose_times(lambda) - reaction); };
+  for (Dependence& rows : groups) {
+    take_rows_with_small_coefficients(rows, lambda);
+    least_norm_of_group(rows, is_free, lambda);
+  }
+  constexpr int most_refinements = 3;
+  constexpr double roundings = 64 * unit_roundoff;
+  double left = missing();
+  for (int i = 0; i < most_refinements; ++i) {
+    if (left <= roundings * std::max(solution.force_norm, solution.acceleration_norm)) break;
+    const Vector before = lambda;
+    if (!put_missing_force_on_basis(problem, reaction, groups, lambda)) break;
+    for (const Dependence& rows : groups) least_norm_of_group(rows, is_free, lambda);
+    const double was = left;
+    left = missing();
+    if (left < was) continue;
+    lambda = before;
+    break;
+  }
+  return is_same_reaction(problem, solution, lambda, tolerance);
 }
 
 }  // namespace convex::inline multiplier_sets

@@ -42,13 +42,12 @@ class MultiplierTableau {
         grows_(free_.size(), false),
         fixed_(now_.nonbasic.size(), false) {
     if constexpr (is_rounded) {
-      // Entries and values below these parts of the largest are rounding about zero.
-      constexpr double entry_noise = 1e-11, relative_value_noise = 1e-14, roundings = 4;
+      // Values below this part of the largest are rounding about zero, and entries so many roundings of it.
+      constexpr double relative_value_noise = 1e-14, roundings = 4;
       double entry = 1, value_size = 0;
       for (const Numbers& column : now_.T)
         for (const double x : column) entry = std::max(entry, std::abs(x));
       for (const double x : now_.value) value_size = std::max(value_size, std::abs(x));
-      noise_ = entry_noise * entry;
       rounding_ = roundings * unit_roundoff * entry;
       value_noise_ = relative_value_noise * value_size;
     }
@@ -61,11 +60,15 @@ class MultiplierTableau {
   /// pivots from an end.
   MultiplierRange<Number> range(Index a) {
     if (unbounded_[at(a)] || is_spent()) return {};
-    // After so many pivots the next range is found from the tableau at the start: rounding does not add up.
+    // The next range is found from the tableau at the start, where that costs little or many pivots have
+    // been made since: rounding does not add up.
     constexpr Index most_pivots_since_start = 64;
-    if (is_rounded && pivots_ > most_pivots_since_start) {
+    constexpr std::size_t few = 64;
+    const bool is_small = now_.basic.size() + now_.nonbasic.size() <= few;
+    if (is_rounded && pivots_ > (is_small ? 0 : most_pivots_since_start)) {
       now_ = start_;
       pivots_ = 0;
+      growth_ = 1;
     }
     std::optional<Number> low = vanishes_[at(a)] ? std::optional<Number>(Number{}) : extreme(a, false);
     return {std::move(low), grows_[at(a)] ? std::nullopt : extreme(a, true)};
@@ -107,12 +110,12 @@ class MultiplierTableau {
     else
       return sign(x) == 0;
   }
-  /// Whether x > 0 beyond rounding.
+  /// Whether x > 0 beyond rounding, which a small pivot makes larger.
   bool is_positive(const Number& x) const {
     if constexpr (is_rounded) {
-      if (std::abs(x) <= noise_ && std::abs(x) > rounding_ * static_cast<double>(1 + pivots_))
-        is_in_doubt_ = true;
-      return !(x <= noise_);
+      const double rounding = rounding_ * static_cast<double>(1 + pivots_), noise = rounding * growth_;
+      if (std::abs(x) <= noise && std::abs(x) > rounding) is_in_doubt_ = true;
+      return !(x <= noise);
     } else {
       return sign(x) > 0;
     }
@@ -142,7 +145,9 @@ class MultiplierTableau {
       constexpr double least_part = 1e-5;
       double largest = 0;
       for (const double entry : now_.T[column]) largest = std::max(largest, std::abs(entry));
-      if (std::abs(now_.T[column][row]) < least_part * largest) is_in_doubt_ = true;
+      const double part = std::abs(now_.T[column][row]) / largest;
+      if (part < least_part) is_in_doubt_ = true;
+      growth_ = std::max(growth_, 1 / part);
     }
     const Number element = now_.T[column][row], entering = now_.value[row] / element;
     Numbers& of_entering = now_.T[column];
@@ -267,7 +272,8 @@ class MultiplierTableau {
   std::vector<bool> free_, unbounded_;
   std::vector<bool> vanishes_, grows_;  ///< at a vertex, along an edge that were met; of free ones the latter
   std::vector<bool> fixed_;
-  Number noise_{}, value_noise_{}, rounding_{};
+  Number value_noise_{}, rounding_{};
+  double growth_ = 1;  ///< of rounding, by the smallest pivot since the start
   mutable bool is_in_doubt_ = false;
   double words_ = 0, most_words_ = std::numeric_limits<double>::infinity();
   Index pivots_ = 0;  // since the tableau was as at the start

@@ -173,13 +173,6 @@ Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>&
   return solution;
 }
 
-/// Whether lambda pulls as the solution's multipliers do; what was found from no vertex may not.
-bool is_same_reaction(const NearestPointProblem& problem, const Solution& solution, const Vector& lambda,
-                      double tolerance) {
-  return problem.A.dual_norm(problem.U.transpose_times(lambda - solution.lambda)) <=
-         tolerance * std::max(solution.force_norm, solution.acceleration_norm);
-}
-
 /// The solution without what rounding left of the multipliers of rows that open.
 Solution off_open_rows(Solution solution, const std::vector<Index>& tight) {
   Vector lambda = Vector::Zero(solution.lambda.size());
@@ -252,6 +245,7 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   constexpr double roundings_of_multipliers = 64 * unit_roundoff;
   const Vector rounding = forces.pushes * (problem.radii ? tolerance : roundings_of_multipliers);
   const Vector signs = signs_of(solution.lambda, length, rounding, is_free);
+  std::vector<Dependence> loose;
   for (const Dependence& rows : *groups) {
     // Rows within radii are what they are counted as.
     found.is_in_doubt |= are_exact && !is_known(problem, rows, length, tolerance / roundings_of_multipliers);
@@ -271,9 +265,9 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
       found.is_in_doubt |= are_exact && polyhedron.is_in_doubt();
     }
     found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    least_norm(rows, is_free, found.least_norm);
+    loose.push_back(rows);
   }
-  if (!is_same_reaction(problem, solution, found.least_norm, tolerance)) {
+  if (!least_norm(problem, solution, loose, is_free, tolerance, found.least_norm)) {
     found.least_norm = solution.lambda;
     found.is_least_norm = false;
     found.is_in_doubt = are_exact;
