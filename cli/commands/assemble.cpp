@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/assembled_state.hpp"
@@ -150,6 +151,10 @@ Exit assemble_file(const AssembleOptions& options) {
   for (const Index a : constraints_named(*system, options.contacts, "--contact"))
     question.contacts.push_back(a);
   for (const Index i : coordinates_named(*system, options.held, "--hold")) question.held.push_back(i);
+  for (std::vector<Index>* asked : {&question.contacts, &question.held}) {  // of the file, and once more
+    std::sort(asked->begin(), asked->end());
+    asked->erase(std::unique(asked->begin(), asked->end()), asked->end());
+  }
   const mechanics::State guess = system->state(text->state);
   const Assembly found = mechanics::assemble(*system, guess, question);
   if (options.output && found.status == AssemblyStatus::solved)

@@ -11,6 +11,7 @@
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/problem.hpp"
+#include "cli/problem_file/table_points.hpp"
 #include "cli/report/map_report.hpp"
 #include "mechanics/map_text.hpp"
 
@@ -40,7 +41,7 @@ std::vector<mechanics::Text> components(const std::string& text) {
   return parts;
 }
 
-/// Rows z_1, …, z_n, T_1, …, T_n of decimals or fractions; a first row of names is skipped.
+/// Rows z_1, …, z_n, T_1, …, T_n of decimals or fractions; a first row without a number is a heading.
 struct MapTable {
   Index n = 0;
   std::vector<ExactVector> z, Tz;
@@ -50,23 +51,24 @@ MapTable read_map_table(const std::string& path) {
   MapTable table;
   std::istringstream lines(read_file(path));
   int number = 0;
+  bool may_be_heading = true;
   for (std::string line; std::getline(lines, line);) {
     ++number;
     std::vector<Fraction> row;
-    bool is_row = true;
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) {
-      std::erase_if(cell, [](char c) { return c == '\r' || c == ' '; });
-      const auto value = convex::read_fraction(cell);
-      is_row = is_row && value;
-      if (value) row.push_back(*value);
+    const std::vector<std::string> cells = table_cells(line);
+    if (cells.empty()) continue;
+    for (const std::string& cell : cells)
+      if (const auto value = convex::read_fraction(cell)) row.push_back(*value);
+    const bool is_row = row.size() == cells.size();
+    if (may_be_heading && row.empty()) {
+      may_be_heading = false;
+      continue;
     }
-    if (number == 1 && !is_row) continue;
-    if (line.find_first_not_of(" \r") == std::string::npos) continue;
+    may_be_heading = false;
     const bool fits = is_row && row.size() >= 2 && row.size() % 2 == 0 &&
                       (table.n == 0 || static_cast<Index>(row.size()) == 2 * table.n);
     if (!fits)
-      throw InvalidInput(path + ": no row of numbers z1, …, zn, T1, …, Tn; give every row as many",
+      throw InvalidInput("no row of numbers z1, …, zn, T1, …, Tn; give every row as many",
                          convex::Place{number, 1});
     const auto half = static_cast<std::ptrdiff_t>(row.size() / 2);
     table.n = static_cast<Index>(half);

@@ -84,6 +84,17 @@ convex::ExactGram exact_metric(const ProxOptions& options, bool is_divided, std:
   return W;
 }
 
+/// Above 0: a number, or a fraction of two.
+std::string positive_fraction(const std::string& text) {
+  const std::optional<convex::Fraction> value = convex::read_fraction(text);
+  if (value && sign(*value) > 0) return "";
+  return text + " is not a positive number; give one above 0, such as 0.5 or 1/2";
+}
+
+double step_of(const ProxOptions& options) {
+  return convex::nearest_double(convex::read_fraction(*options.step).value());
+}
+
 /// With a step, the metric of the command line over it: the prox of gamma f in W is that of f in W/gamma. A
 /// function that takes the product of W would be another one there: gamma f itself is then split, in W.
 DecompositionProblem read_problem(const AskedPoint& point, const ProxOptions& options, Source& source) {
@@ -99,7 +110,7 @@ DecompositionProblem read_problem(const AskedPoint& point, const ProxOptions& op
   convex::Call f = parse_call(options.expression, "f");
   const bool is_divided = options.step && !convex::takes_product(f);
   if (is_divided)
-    W = W.scaled(1 / std::stod(*options.step));
+    W = W.scaled(1 / step_of(options));
   else if (options.step)
     f = parse_call("scale(" + options.expression + ", " + *options.step + ")", "f");
   auto exact = [f, options, is_divided, text = point.text] {
@@ -148,13 +159,13 @@ void add_prox(CLI::App& program, Work& chosen) {
       [options] {
         if (!options->symbolic) return split_points(*options);
         return tell_prox_in_symbols(*options,
-                                    options->step ? std::optional(std::stod(*options->step)) : std::nullopt);
+                                    options->step ? std::optional(step_of(*options)) : std::nullopt);
       });
   add_function(command, *options, true);
   add_proof(command, options->certify);
   command.add_option("--step", options->step, "gamma: the prox of gamma f, that of f in the metric W/gamma")
       ->type_name("X")
-      ->check(positive_number);
+      ->check(positive_fraction);
   add_accuracy(command, *options,
                "accept an error of x and of y of X * max(1, ||z||_W, ||x||_W), default 1e-9");
   add_symbols(command, *options);

@@ -145,6 +145,8 @@ class QpsReader {
     if (section_ == "QUADOBJ" || section_ == "QMATRIX" || section_ == "QSECTION") {
       if (words.size() != 3) fail("an entry of " + section_ + " is two columns and a number");
       const std::size_t i = column(words[0]), j = column(words[1]);
+      if (quadratic_.count({i, j}) > 0)
+        fail("the entry of " + shown(words[0]) + " and " + shown(words[1]) + " twice in " + section_);
       quadratic_[{i, j}] = number(words[2]);
       if (section_ != "QMATRIX") quadratic_[{j, i}] = quadratic_[{i, j}];
     }
@@ -167,7 +169,10 @@ class QpsReader {
     const std::size_t j = columns_.at(words[0]);
     pairs(words, 1, [&](const std::string& name, const std::string& value) {
       if (name == objective_) cost_[j] = value;
-      if (LinearRow* to = row(name)) to->entries[j] = value;
+      LinearRow* to = row(name);
+      if (to == nullptr) return;
+      if (to->entries.count(j) > 0) fail("the entry of " + shown(words[0]) + " in " + shown(name) + " twice");
+      to->entries[j] = value;
     });
   }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <string_view>
+#include <utility>
 
 #include "cli/problem_file/problem.hpp"
 
@@ -20,10 +22,17 @@ std::string read_all(std::istream& in, std::uintmax_t expected) {
   return text;
 }
 
+/// The mark of UTF-8 that some programs put before a text is none of it.
+std::string without_mark(std::string text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  if (text.starts_with(mark)) text.erase(0, mark.size());
+  return text;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
-  if (path == "-") return read_all(std::cin, 0);
+  if (path == "-") return without_mark(read_all(std::cin, 0));
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw convex::InvalidInput("no such file; check the path");
@@ -35,7 +44,7 @@ std::string read_file(const std::string& path) {
     text = read_all(file,
                     std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, error) : 0);
   if (!file.is_open() || file.bad()) throw convex::InvalidInput("cannot be read; check its permissions");
-  return text;
+  return without_mark(std::move(text));
 }
 
 }  // namespace cli::inline problem_files

@@ -30,7 +30,10 @@ std::vector<Index> row_indices(const TomlValue* value, Index m) {
   for (const TomlValue& entry : require_array(*value, "two_sided").array) {
     if (entry.kind != TomlValue::Kind::integer || entry.number < 0 || entry.number >= static_cast<double>(m))
       throw InvalidInput(
-          "two_sided: " + shown(entry.text) + " is no row of U; " +
+          "two_sided: " +
+              (entry.kind == TomlValue::Kind::boolean ? std::string(entry.boolean ? "true" : "false")
+                                                      : shown(entry.text)) +
+              " is no row of U; " +
               (m == 0 ? std::string("U has none") : "rows are integers from 0 to " + std::to_string(m - 1)),
           entry.place);
     rows.push_back(static_cast<Index>(entry.number));

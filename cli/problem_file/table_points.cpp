@@ -9,8 +9,15 @@
 namespace cli::inline problem_files {
 namespace {
 
-/// The words of a line.
-std::vector<std::string> cells(const std::string& line) {
+bool is_number(const std::string& text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return *end == '\0' && std::isfinite(value) && text.find_first_of("xXpP") == std::string::npos;
+}
+
+}  // namespace
+
+std::vector<std::string> table_cells(const std::string& line) {
   std::vector<std::string> found;
   std::string cell;
   const auto finish = [&] {
@@ -27,14 +34,6 @@ std::vector<std::string> cells(const std::string& line) {
   return found;
 }
 
-bool is_number(const std::string& text, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  return *end == '\0' && std::isfinite(value) && text.find_first_of("xXpP") == std::string::npos;
-}
-
-}  // namespace
-
 mechanics::TablePoints read_table_points(const std::string& file) {
   std::string text;
   try {
@@ -48,7 +47,7 @@ mechanics::TablePoints read_table_points(const std::string& file) {
   bool may_be_heading = true;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    const std::vector<std::string> row = cells(line);
+    const std::vector<std::string> row = table_cells(line);
     if (row.empty() || row[0][0] == '#') continue;
     double x = 0, y = 0;
     if (row.size() == 2 && is_number(row[0], x) && is_number(row[1], y)) {
@@ -56,7 +55,7 @@ mechanics::TablePoints read_table_points(const std::string& file) {
       points.y.push_back(y);
       points.x_text.push_back(row[0]);
       points.y_text.push_back(row[1]);
-    } else if (!may_be_heading || row.size() != 2) {
+    } else if (!may_be_heading || row.size() != 2 || is_number(row[0], x) || is_number(row[1], y)) {
       throw convex::InvalidInput("the table " + file + ", line " + std::to_string(number) +
                                  ": not two numbers; give x and y on each line");
     }

@@ -156,6 +156,8 @@ class LatexFormulas {
     const Tape& tape = equations_.tape;
     const auto first = [&] { return text(atom.arguments[0]); };
     switch (atom.operation) {
+      case Operation::literal:
+        return "\\text{undefined}";  // no number: a table outside its range
       case Operation::pi:
         return "\\pi";
       case Operation::parameter:

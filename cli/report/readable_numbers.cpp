@@ -54,9 +54,13 @@ Vector without_rounding(const SolvedScene& solved, Vector acceleration) {
   const double largest = acceleration.size() > 0 ? acceleration.cwiseAbs().maxCoeff() : 0,
                error = error_of(solved.solution.primal);
   for (Index i = 0; i < acceleration.size(); ++i) {
-    if (acceleration[i] == 0 || std::abs(acceleration[i]) > 1e-6 * largest) continue;
+    if (acceleration[i] == 0) continue;
+    // Where all are that small, it is the error bound alone that tells.
+    const double off = std::abs(acceleration[i]) > 1e-6 * largest
+                           ? std::min(error, solved.solution.primal.error_bound)
+                           : error;
     const Vector unit = Vector::Unit(A.dimension(), i);
-    if (std::abs(acceleration[i]) <= error * A.dual_norm(unit)) acceleration[i] = 0;
+    if (std::abs(acceleration[i]) <= off * A.dual_norm(unit)) acceleration[i] = 0;
   }
   return acceleration;
 }

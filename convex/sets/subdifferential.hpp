@@ -38,9 +38,9 @@ struct Subdifferential {
 };
 
 /// By the calculus of Rockafellar (1970, section 23) from the parts that f is made of, where its conditions
-/// are met: of a sum, all parts but one are polyhedral or finite around x; of f(Ax + b), f is finite around
-/// Ax + b, or A is onto. Throws InvalidInput where they are not, or no rule gives the set
-/// (docs/subdifferentials.md lists the rules).
+/// are met: of a sum, all parts are polyhedral, all but one finite around x, or their domains do not touch
+/// there; of f(Ax + b), f is finite around Ax + b, or A is onto. Throws InvalidInput where they are not, or
+/// no rule gives the set (docs/subdifferentials.md lists the rules).
 Subdifferential subdifferential(const Call& f, const ExactGram& W, const Fractions& x);
 
 /// The tangent cone of C at x, {d : a·d <= 0 for all normals a}, polar to the normal cone; the critical cone

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <iterator>
+#include <optional>
 
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/exact/elimination.hpp"
@@ -16,8 +18,31 @@ namespace {
   throw InvalidInput(f.name + ": no rule gives its subdifferential at this point as a set: " + why);
 }
 
-/// ∂(f + g) = ∂f + ∂g where all but one of them are finite around x (Rockafellar 1970, theorem 23.8). Parts
-/// with programs count as one.
+std::vector<ExactRow> multiple_of_identity(const Fraction& factor, std::size_t n) {
+  std::vector<ExactRow> rows(n);
+  for (std::size_t i = 0; i < n; ++i) add(rows[i], i, factor);
+  return rows;
+}
+
+/// Whether the normals to the domains at x, which are the directions in which the subdifferentials have no
+/// end, cancel in no sum but that of zeros. Not where one of them is no polyhedron.
+bool only_zeros_cancel(const std::vector<Subdifferential>& parts) {
+  std::optional<ExactPolyhedron> against;
+  for (const Subdifferential& part : parts) {
+    if (!part.polyhedron || part.polyhedron->is_empty()) return false;
+    ExactPolyhedron cone = *part.polyhedron;
+    cone.vertices = {Fractions(cone.n)};
+    cone = image(cone, multiple_of_identity({1, 1}, cone.n));
+    if (against && !intersection(cone, *against).is_point()) return false;
+    const ExactPolyhedron opposite = image(cone, multiple_of_identity({-1, 1}, cone.n));
+    against = against ? sum(*against, opposite) : opposite;
+  }
+  return true;
+}
+
+/// ∂(f + g) = ∂f + ∂g where all but one of them are finite around x (Rockafellar 1970, theorem 23.8), or only
+/// zeros of the normals to their domains cancel (Rockafellar and Wets 1998, corollary 10.9). Parts with
+/// programs count as one.
 Subdifferential of_sum(const Call& f, const ExactGram& W, const Fractions& x) {
   std::vector<const Call*> programs;
   std::vector<Subdifferential> parts;
@@ -37,10 +62,12 @@ Subdifferential of_sum(const Call& f, const ExactGram& W, const Fractions& x) {
                                       [&](const Call* part) { return known_value(*part, W, x).is_infinite; });
   if (is_outside) return none(x.size());
   const auto is_on_edge = [](const Subdifferential& part) { return part.is_empty() || !is_bounded(part); };
-  if (std::count_if(parts.begin(), parts.end(), is_on_edge) > 1)
+  std::vector<Subdifferential> on_edge;
+  std::copy_if(parts.begin(), parts.end(), std::back_inserter(on_edge), is_on_edge);
+  if (on_edge.size() > 1 && !only_zeros_cancel(on_edge))
     refuse(f,
-           "x lies on the edge of two of its domains, and these may meet there alone; make one of them "
-           "polyhedral");
+           "x lies on the edge of two of its domains, one of them curved, and they may meet there alone, or "
+           "touch; give a point off one of the edges");
   if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.is_empty(); }))
     return none(x.size());
   Subdifferential total = parts.front();
@@ -68,12 +95,6 @@ Subdifferential of_precompose(const Call& f, const Fractions& x) {
   }
   if (inner.is_empty()) return none(x.size());
   return transposed_image(inner, A, x.size());
-}
-
-std::vector<ExactRow> multiple_of_identity(const Fraction& factor, std::size_t n) {
-  std::vector<ExactRow> rows(n);
-  for (std::size_t i = 0; i < n; ++i) add(rows[i], i, factor);
-  return rows;
 }
 
 Subdifferential of_blocks(const Call& f, const ExactGram& W, const Fractions& x) {

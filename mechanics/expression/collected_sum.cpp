@@ -123,6 +123,7 @@ CollectedSum Collection::made(NodeId node) {
   const NodeId a = tape_.a(node), b = tape_.b(node);
   switch (operation) {
     case Operation::literal: {
+      if (!std::isfinite(tape_.constant(node))) return of_atom({operation, node, {}});
       const std::string& text = tape_.text(node);
       const auto value = convex::read_fraction(text.substr(0, text.find(radius_mark)));
       CollectedSum sum;

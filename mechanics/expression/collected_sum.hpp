@@ -17,8 +17,8 @@ using Powers = std::vector<std::pair<std::size_t, int>>;
 /// Σ factor · product of powers, no factor 0; empty for 0. Equal products are one term.
 using CollectedSum = std::map<Powers, Fraction>;
 
-/// What a collected sum is made of: a variable, a parameter or pi (`leaf`), a function of sums, or a sum that
-/// stays together in a power or in a long product (`Operation::add`, its one argument).
+/// What a collected sum is made of: a variable, a parameter, pi or what is no number (`leaf`), a function of
+/// sums, or a sum that stays together in a power or in a long product (`Operation::add`, its one argument).
 struct CollectedAtom {
   Operation operation = Operation::literal;
   NodeId leaf = no_node;

@@ -187,9 +187,9 @@ bool Motion::TimeStepping::find_velocity(double h, double end) {
   double last = std::numeric_limits<double>::infinity(), error = 0;
   for (int i = 0; i < most_iterations; ++i) {
     const Vector along = (1 - theta) * state.v + theta * velocity_;
-    const State middle{t, state.q + theta * h * along, along};
-    find_inertia(middle);
-    now_ = contacts_at(middle, constraints, h);
+    middle_ = {t, state.q + theta * h * along, along};
+    find_inertia(middle_);
+    now_ = contacts_at(middle_, constraints, h);
     const Vector z = A_->multiply(state.v) + h * z_;
     const Vector s = -(now_.drift + now_.restitution.cwiseProduct(now_.before));
     const convex::Solution& solution = solve(velocities_, now_.constraints, now_.two_sided, now_.U, z, s,
@@ -305,9 +305,13 @@ void Motion::TimeStepping::tell_events(double h, const Vector& velocity_before) 
   rests_ = std::move(rests);
   if (!hit.empty()) {
     event(EventKind::impact, hit, velocity_before);
+    // T+ - T- = b·(v+ - v-) + (v+'A v+ - v-'A v-)/2 where the step has its forces, less what these do.
     const Vector change = velocity_ - velocity_before, middle = 0.5 * (velocity_ + velocity_before);
-    record.impact_energy += middle.dot(A_->multiply(change) - h * z_);
-    record.ledger_energy += work;
+    const double quadratic = middle.dot(A_->multiply(change)), of_forces = h * middle.dot(z_);
+    const double all = system.kinetic_energy({middle_.t, middle_.q, velocity_}) -
+                       system.kinetic_energy({middle_.t, middle_.q, velocity_before});
+    record.impact_energy += all - of_forces;
+    record.ledger_energy += work + (all - quadratic);
   }
   if (!met.empty()) event(EventKind::contact, met, velocity_before);
   if (!left.empty() && !is_first_) event(EventKind::release, left, velocity_before);

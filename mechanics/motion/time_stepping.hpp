@@ -85,6 +85,7 @@ class Motion::TimeStepping final : public Motion::Course {
   convex::SparseMatrix gram_;
   std::optional<convex::Metric> A_;
   Vector z_;
+  State middle_;  ///< of the step at hand: where its forces and contacts are taken
   Contacts now_;
   Vector velocity_, impulse_;  // v+, and P of `now_`
   std::vector<bool> rests_;    // by constraint: touched with f' = 0 at the end of the last step
