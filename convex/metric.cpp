@@ -51,6 +51,12 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
       "A: not positive definite to working precision; give a symmetric positive definite matrix");
 }
 
+void require_size(const Vector& x, Index n) {
+  if (x.size() != n)
+    throw InvalidInput("metric: a vector of " + std::to_string(x.size()) + " entries; give " +
+                       std::to_string(n));
+}
+
 void require_finite(double value, Index i, Index j) {
   if (!std::isfinite(value)) throw InvalidInput("A: " + entry(i, j) + " is not finite; give finite numbers");
 }
@@ -152,6 +158,7 @@ struct Metric::Data {
 };
 
 Metric Metric::identity(Index n) {
+  if (n < 0) throw InvalidInput("metric: a negative dimension; give 0 or more");
   auto data = std::make_shared<Data>();
   data->diagonal = Vector::Ones(n);
   return Metric(std::move(data));
@@ -250,6 +257,7 @@ const SparseMatrix& Metric::sparse_gram() const {
 }
 
 Vector Metric::multiply(const Vector& x) const {
+  require_size(x, dimension());
   switch (data_->kind) {
     case MetricKind::identity:
       return x;
@@ -264,6 +272,7 @@ Vector Metric::multiply(const Vector& x) const {
 }
 
 Vector Metric::solve(const Vector& c) const {
+  require_size(c, dimension());
   if (data_->kind == MetricKind::diagonal) return c.cwiseQuotient(data_->diagonal);
   return unwhiten(whiten(c));
 }

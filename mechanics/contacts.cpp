@@ -14,6 +14,12 @@ namespace {
 }  // namespace
 
 Contacts contacts(const System& system, const State& state, const Vector& tolerance, Impending impending) {
+  const auto m = static_cast<Index>(system.constraints().size());
+  if (tolerance.size() != m || !(tolerance.array() >= 0).all())
+    throw convex::InvalidInput("contact_tolerance: give " + std::to_string(m) +
+                               " numbers that are not negative, one per constraint");
+  if (!std::isfinite(state.t) || !state.q.allFinite() || !state.v.allFinite())
+    throw convex::InvalidInput("state: a number is not finite; give finite numbers");
   Contacts found;
   found.rates = system.constraint_rates(state);
   const auto& constraints = system.constraints();

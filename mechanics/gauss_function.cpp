@@ -23,6 +23,9 @@ convex::Function gauss_function(const convex::NearestPointProblem& problem) {
 }
 
 convex::Vector gauss_gradient(const convex::NearestPointProblem& problem, const convex::Vector& q) {
+  if (q.size() != problem.dimension())
+    throw convex::InvalidInput("gauss_gradient: " + std::to_string(q.size()) + " entries; give " +
+                               std::to_string(problem.dimension()) + ", one per coordinate");
   return -convex::stationarity_residual(problem, convex::DoubleDoubleVector(q), {},
                                         convex::DoubleDoubleVector(0));
 }

@@ -164,6 +164,7 @@ void leave_open(convex::Solution& primal) {
 }  // namespace
 
 GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptions& options) {
+  if (options.method == nullptr) throw convex::InvalidInput("method: none; give one of convex::methods()");
   if (const std::string reason = options.method->applies(problem); !reason.empty())
     throw convex::InvalidInput("method \"" + std::string(options.method->name) + "\": " + reason);
   const Units units = fit_units(problem);

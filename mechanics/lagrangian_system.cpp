@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/invariant.hpp"
+#include "convex/invalid_input.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/sweeps.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
@@ -30,8 +30,10 @@ std::vector<std::string> names_of_constraints(const LagrangianModel& model) {
 
 void check_size(const LagrangianModel& model, const State& state) {
   const auto n = static_cast<Index>(model.coordinates.size());
-  convex::invariant(state.q.size() == n && state.v.size() == n,
-                    "a state has one position and velocity per coordinate");
+  if (state.q.size() == n && state.v.size() == n) return;
+  throw convex::InvalidInput("state: " + std::to_string(state.q.size()) + " positions and " +
+                             std::to_string(state.v.size()) + " velocities; give " + std::to_string(n) +
+                             " of each, one per coordinate");
 }
 
 /// Something in T, V or their derivatives, or in Q, is not finite.
@@ -145,6 +147,11 @@ ContactRows LagrangianSystem::contact_rows(const State& state, const std::vector
   Gradients gradients(program);
   bool is_finite = true;
   std::vector<Eigen::Triplet<double>> entries;
+  const auto count = static_cast<Index>(model.constraints.size());
+  for (const Index a : constraints)
+    if (a < 0 || a >= count)
+      throw convex::InvalidInput("constraints: there is no number " + std::to_string(a) +
+                                 "; they run from 0 to " + std::to_string(count - 1));
   for (Index k = 0; k < m; ++k) {
     const Slot root = program.roots(0)[static_cast<std::size_t>(constraints[static_cast<std::size_t>(k)])];
     for (const auto& [i, u] : gradients.of(root, x).by_q) {
@@ -166,6 +173,9 @@ ContactRows LagrangianSystem::contact_rows(const State& state, const std::vector
 
 Vector LagrangianSystem::second_rates(const State& state, const Vector& q2) const {
   const Values x = values_of_contacts(*model_, state);
+  if (q2.size() != state.q.size())
+    throw convex::InvalidInput("acceleration: " + std::to_string(q2.size()) + " entries; give " +
+                               std::to_string(state.q.size()) + ", one per coordinate");
   Vector result =
       at_roots(model_->contacts, rates<double>(model_->contacts, x, numbers(state.v), &q2).second);
   if (!result.allFinite()) refuse_values(*model_, model_->contacts, 0, x, 2, names_of_constraints(*model_));

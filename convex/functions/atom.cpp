@@ -4,6 +4,7 @@
 #include "convex/composite/composite_prox.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/gamma0/node.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
 namespace convex::inline gamma0 {
@@ -36,14 +37,15 @@ Vector diagonal_of(const Metric& W) {
 /// What a gap g = sigma(u) - u·s between a set's point s and a normal u says of their distance: s is g/||u||
 /// short of the supporting plane, and no farther off than 2||u||, since with u = 0 in its place s would be
 /// right. Two formulas that share a wrong level agree with each other, but not with the values: the gap shows
-/// it, which is infinite where s is not in the set.
+/// it, which is infinite where s is not in the set; with u = 0 nothing is known of it then.
 double distance_in_gap(const Facts& facts, double gap, double size_of_x, double size_of_v) {
   const auto along = [&](double normal) {
     if (!std::isfinite(gap)) return 2 * normal;
     return normal > 0 ? std::min(std::abs(gap) / normal, 2 * normal) : 0;
   };
   if (facts.support) return along(size_of_x);
-  return facts.indicator ? along(size_of_v) : 0;
+  if (!facts.indicator) return 0;
+  return std::isfinite(gap) || size_of_v > 0 ? along(size_of_v) : infinity;
 }
 
 Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d, const Look& look) {
@@ -61,6 +63,8 @@ Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d, const L
       (result.v - covector).cwiseQuotient(root).stableNorm() + f.subgradient_miss(result.x, result.v, d) +
       distance_in_gap(f.facts(), result.duality_gap, size_of_x, result.v.cwiseQuotient(root).stableNorm()) +
       roundings_of_a_formula * unit_roundoff * (root.cwiseProduct(z).stableNorm() + size_of_x);
+  const double scale = std::max({1.0, root.cwiseProduct(z).stableNorm(), size_of_x});
+  if (!(result.error_bound <= membership_tolerance * scale)) result.status = Status::inaccurate;
   result.method = "closed form";
   result.by_conjugate = f.prox_by_conjugate();
   return result;

@@ -166,6 +166,9 @@ Decomposition beyond_squares(const Function& f, const Vector& z, const Metric& W
 }  // namespace
 
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
+  if (z.size() != W.dimension())
+    throw InvalidInput("z: " + std::to_string(z.size()) + " entries; give " + std::to_string(W.dimension()) +
+                       ", as many as the metric has");
   const double size = W.norm(z);
   if (!(size <= largest_size)) return beyond_squares(f, z, W, tolerance);
   Decomposition split = looked_at_in_turn(f, z, W, tolerance);

@@ -135,6 +135,7 @@ class ProximalPoint {
     pull.lo = -pull.lo;
     add_product(problem_.A, DoubleDoubleVector(point_.xi), pull);
     problem_.z = pull.value();
+    rounded_off_ = pull.hi - problem_.z + pull.lo;
     // Rounds after the first have derived data, which fractions would take at their word.
     const bool is_the_program = !soft_.any && f_.polyhedral();
     Solution solution = active_set(problem_, {.limit = is_the_program ? 1.0 : 0.0}, guess);
@@ -178,7 +179,7 @@ class ProximalPoint {
 
     if (rough_) return !harden();
     if (!soft_.any && f_.polyhedral()) {  // the round was the program itself
-      point_.error_bound = solution.error_bound;
+      point_.error_bound = solution.error_bound + W_.dual_norm(rounded_off_.head(f_.n));
       return true;
     }
     if (!second) return false;
@@ -251,6 +252,7 @@ class ProximalPoint {
   double terms_norm_ =
       0;  // the terms of stationarity in the units of x: its rounding is relative to them too
   double round_scale_ = 0;
+  Vector rounded_off_;  ///< what the linear term of a round left out of its double
   bool rough_ = false, idle_ = false;
   ProgramPoint point_;
 };

@@ -67,6 +67,9 @@ void validate(const NearestPointProblem& problem) {
   if (problem.radii) {
     require_size("radii of rows", problem.radii->row.size(), problem.rows(), "row of U");
     require_size("radii of s", problem.radii->s.size(), problem.rows(), "row of U");
+    for (const Vector* radii : {&problem.radii->row, &problem.radii->s})
+      if (!(radii->array() >= 0).all())
+        throw InvalidInput("radii: one is negative or no number; give what the data are known to");
   }
   require_finite("z", problem.z);
   require_finite("s", problem.s);

@@ -61,12 +61,7 @@ Vector proj_capped_simplex(const Vector& z, double cap, double total) {
 Vector proj_capped_simplex(const Vector& z, double cap, double total, const Vector& d) {
   require_metric(z, d);
   require_capped(z.size(), cap, total);
-  const Vector metric = d / unit_of(d), slope = metric.cwiseInverse();
-  const double level = water_level(z.cwiseProduct(metric), slope, cap, total);
-  Vector x(z.size());
-  for (Index i = 0; i < z.size(); ++i) x[i] = std::fma(metric[i], z[i], -level);
-  const double rest = water_level(x, slope, cap, total);  // among differences, which have one rounding each
-  return ((x.array() - rest) / metric.array()).max(0.0).min(cap);
+  return clamped_to_total(z, d / unit_of(d), cap, total);
 }
 
 Vector prox_sum_largest(const Vector& z, double k, double weight) {
@@ -79,7 +74,7 @@ Vector prox_sum_largest(const Vector& z, double k, double weight, const Vector& 
   if (!(weight > 0 && k > 0)) return z;
   const double unit = unit_of(d), scaled = weight / unit;
   const Vector metric = d / unit;
-  const double level = water_level(z, metric, scaled, scaled * k);
+  const double level = exact_water_level(z, metric, scaled, scaled * k);
   return z.array().min(level).max(z.array() - scaled / metric.array());
 }
 

@@ -35,17 +35,6 @@ Vector balanced_metric(const Vector& z, const Vector& d) {
   return d.unaryExpr([k = std::ilogb(d.maxCoeff())](double w) { return std::ldexp(w, -k); });
 }
 
-/// max(0, v - level/d) with Σ = total. The level is found twice, the second time among the differences to the
-/// first, each of which has one rounding: the error is one of the differences and not of a far z.
-Vector simplex_in_metric(const Vector& v, double total, const Vector& d) {
-  const Vector inverse = d.cwiseInverse();
-  const double level = water_level(v.cwiseProduct(d), inverse, infinity, total);
-  Vector x(v.size());
-  for (Index i = 0; i < v.size(); ++i) x[i] = std::fma(d[i], v[i], -level);
-  const double rest = water_level(x, inverse, infinity, total);
-  return (x.array() - rest).max(0.0) / d.array();
-}
-
 /// δ_ij - (1/d_i)/Σ_S(1/d) over the support S of x, with the signs of x.
 Matrix support_jacobian(const Vector& x, const Vector& d) {
   const Index n = x.size();
@@ -76,7 +65,7 @@ Vector proj_simplex(const Vector& z, double total, const Vector& d) {
   require_points(z, total);
   const Vector metric = balanced_metric(z, d);
   if (!(total > 0)) return Vector::Zero(z.size());
-  return simplex_in_metric(z, total, metric);
+  return clamped_to_total(z, metric, infinity, total);
 }
 
 Vector proj_ball1(const Vector& z, double radius) {
@@ -91,7 +80,7 @@ Vector proj_ball1(const Vector& z, double radius, const Vector& d) {
   const Vector metric = balanced_metric(z, d);
   if (sum_of_absolutes(z) <= radius) return z;
   if (!(radius > 0)) return Vector::Zero(z.size());
-  return signed_as(simplex_in_metric(z.cwiseAbs(), radius, metric), z);
+  return signed_as(clamped_to_total(z.cwiseAbs(), metric, infinity, radius), z);
 }
 
 Vector prox_max(const Vector& z, double weight) {
@@ -105,7 +94,7 @@ Vector prox_max(const Vector& z, double weight, const Vector& d) {
   const Vector metric = balanced_metric(z, d);
   if (z.size() == 0 || !(weight > 0)) return z;
   const double scaled = std::ldexp(weight, -std::ilogb(d.maxCoeff()));
-  return proj_box(z, -infinity, water_level(z, metric, infinity, scaled));
+  return proj_box(z, -infinity, exact_water_level(z, metric, infinity, scaled));
 }
 
 Vector prox_norm_inf(const Vector& z, double weight) {
@@ -122,7 +111,7 @@ Vector prox_norm_inf(const Vector& z, double weight, const Vector& d) {
   const double scaled = z.size() > 0 ? std::ldexp(weight, -std::ilogb(d.maxCoeff())) : 0;
   if (!(weight > 0)) return z;
   if (metric.dot(z.cwiseAbs()) <= scaled) return Vector::Zero(z.size());
-  const double level = std::max(0.0, water_level(z.cwiseAbs(), metric, infinity, scaled));
+  const double level = std::max(0.0, exact_water_level(z.cwiseAbs(), metric, infinity, scaled));
   return proj_box(z, -level, level);
 }
 

@@ -1,7 +1,10 @@
 #include "convex/prox_formulas/water_level.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "convex/double_double.hpp"
@@ -115,6 +118,111 @@ double water_level(const Vector& point, const Vector& slope, double cap, double 
   if (!(slopes > 0)) return hi < std::numeric_limits<double>::infinity() ? hi : lo;
   const double missing = linear.rounded() + static_cast<double>(capped) * cap - total;
   return std::clamp(base + missing / slopes, lo, hi);
+}
+
+namespace {
+
+/// v_i - level/d_i.
+struct OfShares {
+  const Vector &v, &d;
+  double rough(Index i, double level) const { return v[i] - level / d[i]; }
+  double size(Index i, double level) const { return std::abs(v[i]) + std::abs(level / d[i]); }
+  DoubleDouble operator()(Index i, DoubleDouble level) const {
+    return add(DoubleDouble{v[i], 0}, negative(quotient(level, DoubleDouble{d[i], 0})));
+  }
+  DoubleDouble slope(Index i) const { return quotient(DoubleDouble{1, 0}, DoubleDouble{d[i], 0}); }
+  double breakpoint(Index i, double value) const { return d[i] * (v[i] - value); }
+};
+
+/// slope_i (point_i - level).
+struct OfPoints {
+  const Vector &point, &weight;
+  double rough(Index i, double level) const { return weight[i] * (point[i] - level); }
+  double size(Index i, double level) const { return weight[i] * (std::abs(point[i]) + std::abs(level)); }
+  DoubleDouble operator()(Index i, DoubleDouble level) const {
+    return product(add(DoubleDouble{point[i], 0}, negative(level)), weight[i]);
+  }
+  DoubleDouble slope(Index i) const { return {weight[i], 0}; }
+  double breakpoint(Index i, double value) const { return point[i] - value / weight[i]; }
+};
+
+/// The terms clamped to [0, cap], the sum of all, and by how much that falls as the level rises.
+struct Clamped {
+  DoubleDouble level;
+  Vector x;
+  std::vector<bool> is_free;
+  DoubleDouble sum, slope;
+};
+
+template <class Terms>
+Clamped clamped(const Terms& terms, Index n, double cap, DoubleDouble level) {
+  constexpr double near = 1e-8;  // of the parts of a difference that doubles do not tell the sign of
+  Clamped found{level, Vector::Zero(n), std::vector<bool>(static_cast<std::size_t>(n)), {}, {}};
+  RunningSum sum, slope;
+  for (Index i = 0; i < n; ++i) {
+    const double rough = terms.rough(i, level.hi), margin = near * terms.size(i, level.hi);
+    if (rough < -margin || !std::isfinite(margin)) continue;
+    const DoubleDouble x = rough > cap + margin ? DoubleDouble{cap, 0} : terms(i, level);
+    if (!(x.value() > 0)) continue;
+    found.x[i] = std::min(x.value(), cap);
+    sum.add(x.value() < cap ? x : DoubleDouble{cap, 0});
+    if (!(x.value() < cap)) continue;
+    found.is_free[static_cast<std::size_t>(i)] = true;
+    slope.add(terms.slope(i));
+  }
+  found.sum = sum.tidy();
+  found.slope = slope.tidy();
+  return found;
+}
+
+/// The next level at which an entry becomes free, above or below one at which none is.
+template <class Terms>
+double next_breakpoint(const Terms& terms, Index n, double cap, double level, bool above) {
+  const double none = std::numeric_limits<double>::infinity();
+  double next = above ? none : -none;
+  const auto look = [&](double at) {
+    if (above ? at > level && at < next : at < level && at > next) next = at;
+  };
+  for (Index i = 0; i < n; ++i) {
+    look(terms.breakpoint(i, 0));
+    if (cap < none) look(terms.breakpoint(i, cap));
+  }
+  return next;
+}
+
+/// Newton's steps on the piecewise linear sum, which end where the same entries stay free.
+template <class Terms>
+Clamped with_total(const Terms& terms, Index n, double cap, double total, double near) {
+  constexpr int most_steps = 100;
+  Clamped at = clamped(terms, n, cap, {near, 0});
+  const auto excess_of = [&](const Clamped& one) { return add(one.sum, DoubleDouble{-total, 0}); };
+  for (int step = 0; step < most_steps; ++step) {
+    const DoubleDouble excess = excess_of(at);
+    if (excess.value() == 0) break;
+    const bool is_free = at.slope.hi > 0;
+    const DoubleDouble level =
+        is_free ? add(at.level, quotient(excess, at.slope))
+                : DoubleDouble{next_breakpoint(terms, n, cap, at.level.value(), excess.value() > 0), 0};
+    if (!std::isfinite(level.hi)) break;
+    Clamped next = clamped(terms, n, cap, level);
+    const bool is_settled = is_free && next.is_free == at.is_free;
+    if (step > most_steps / 2 && !(std::abs(excess_of(next).value()) < std::abs(excess.value()))) break;
+    at = std::move(next);
+    if (is_settled) break;
+  }
+  return at;
+}
+
+}  // namespace
+
+Vector clamped_to_total(const Vector& v, const Vector& d, double cap, double total) {
+  const double near = water_level(v.cwiseProduct(d), d.cwiseInverse(), cap, total);
+  return with_total(OfShares{v, d}, v.size(), cap, total, near).x;
+}
+
+double exact_water_level(const Vector& point, const Vector& slope, double cap, double total) {
+  const double near = water_level(point, slope, cap, total);
+  return with_total(OfPoints{point, slope}, point.size(), cap, total, near).level.value();
 }
 
 }  // namespace convex::prox_formulas

@@ -1,6 +1,7 @@
 #include "mechanics/motion/course.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mechanics/number_text.hpp"
 
@@ -12,8 +13,10 @@ MotionOptions checked(MotionOptions options, const LagrangianSystem& system) {
   if (options.restitution.size() == 0) options.restitution = Vector::Zero(m);
   if (options.contact_tolerance.size() == 0)
     options.contact_tolerance = Vector::Constant(m, default_contact_tolerance);
-  if (options.restitution.size() != m || options.contact_tolerance.size() != m)
+  if (options.restitution.size() != m)
     throw convex::InvalidInput("restitution: one number a constraint is needed");
+  if (options.contact_tolerance.size() != m)
+    throw convex::InvalidInput("contact_tolerance: one number a constraint is needed");
   for (Index a = 0; a < m; ++a)
     if (!(options.restitution[a] >= 0 && options.restitution[a] <= 1))
       throw convex::InvalidInput("restitution of " + system.constraints()[static_cast<std::size_t>(a)].name +
@@ -30,6 +33,7 @@ Motion::Course::Course(const LagrangianSystem& of, MotionOptions chosen)
     : options(checked(std::move(chosen), of)), system(of) {}
 
 bool Motion::Course::may_advance(double until) {
+  if (!std::isfinite(until)) throw convex::InvalidInput("until: not a finite time; give one");
   if (status != MotionStatus::done || !(state.t < until)) return false;
   events.clear();
   constexpr double largest = 0x1p500;  // squares of what is larger, as T, leave the range of doubles

@@ -240,6 +240,10 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
     throw convex::InvalidInput(
         "an orbit of unknown period belongs to a system without t, which here stands in the expressions: the "
         "same state at another time goes on otherwise; give the period of what drives it, or a multiple");
+  if (const auto n = static_cast<Index>(system.coordinates().size());
+      question.modulo.size() != 0 && question.modulo.size() != n)
+    throw convex::InvalidInput("modulo: " + std::to_string(question.modulo.size()) + " entries; give " +
+                               std::to_string(n) + ", one per coordinate, or none");
   Orbit orbit = find_orbit_there(system, guess, question);
   const bool is_hidden =
       !orbit.is_found || (!orbit.multipliers && orbit.start_margin < near_start * orbit.period);

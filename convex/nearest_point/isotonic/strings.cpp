@@ -70,7 +70,9 @@ class StringFinder {
 Strings string_in_order(const SparseRows& U, Index n) {
   Strings found{{}, {}, {0}, {}};
   const int floor = U.rows() == n ? 1 : 0;  // the first row, if it is one
-  if (U.rows() - floor != n - 1 || (floor == 1 && link(U, 0).high != 0)) return found;
+  if (U.rows() - floor != n - 1) return found;
+  if (const Link under = floor == 1 ? link(U, 0) : Link{-1, 0}; under.low != -1 || under.high != 0)
+    return found;
   found.row.resize(at(n));
   found.row[0] = floor - 1;
   for (int i = 1; i < n; ++i) {

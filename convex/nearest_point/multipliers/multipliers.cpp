@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "convex/infinity.hpp"
+#include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
@@ -307,6 +308,9 @@ std::vector<Index> rows_that_hold(const NearestPointProblem& problem, const Solu
 
 Multipliers multipliers(const NearestPointProblem& problem, const Solution& given, double tolerance,
                         bool want_ranges) {
+  if (given.q.size() != problem.dimension() || given.lambda.size() != problem.rows() ||
+      given.slack.size() != problem.rows())
+    throw InvalidInput("multipliers: the solution is none of this problem; give one that is solved");
   Multipliers found =
       multipliers_of(problem, given, tight_rows(problem, given, tolerance), tolerance, want_ranges);
   if (problem.radii) return found;

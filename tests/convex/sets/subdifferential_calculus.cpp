@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
+#include <tuple>
 
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
@@ -256,4 +258,26 @@ TEST_CASE(
   CHECK_THROWS_AS(subdifferential(parsed("norm1()"), identity_gram(40), off), InvalidInput);
   // A corner of a box has forty normals, and no more.
   CHECK(subdifferential(parsed("box(0, 1)"), identity_gram(40), Fractions(40)).polyhedron->rays.size() == 40);
+}
+
+TEST_CASE("normals of a ball and of a polyhedron that it crosses add up; where they touch it is refused") {
+  const Fractions x = fractions_of({"1", "0"});
+  const ExactGram W = identity_gram(2);
+  const std::tuple<const char*, IntegerRows> crossing[] = {
+      {"intersection(ball2(1), halfspace([1, 1], 1))", {{1, 0}, {1, 1}}},
+      {"intersection(ball2(1), box(0, 1))", {{1, 0}, {0, -1}}},
+      {"intersection(halfspace([0, 1], 0), ball2(1))", {{1, 0}, {0, 1}}}};
+  for (const auto& [text, rays] : crossing) {
+    CAPTURE(text);
+    const Subdifferential found = subdifferential(parsed(text), W, x);
+    REQUIRE(found.polyhedron);
+    CHECK(found.polyhedron->lines.empty());
+    CHECK(found.polyhedron->rays.size() == 2);
+    for (const IntegerVector& ray : rays)
+      CHECK(std::find(found.polyhedron->rays.begin(), found.polyhedron->rays.end(), ray) !=
+            found.polyhedron->rays.end());
+  }
+  for (const char* touching :
+       {"intersection(ball2(1), halfspace([-1, 0], -1))", "intersection(ball2(1), affine([[1, 0]], [1]))"})
+    CHECK_THROWS_AS(subdifferential(parsed(touching), W, x), InvalidInput);
 }

@@ -250,3 +250,11 @@ TEST_CASE("a motion that goes on in steps has the state and the record that it h
   CHECK(motion.record().impacts == events.record().impacts);
   CHECK(std::abs(motion.state().q[0] - events.state().q[0]) <= 1e-3);
 }
+
+TEST_CASE("the energy of an impact in a moving frame is that of T with its linear terms, in steps too") {
+  // T = (x' + 3)²/2: from x' = -1 to 0 it rises from 2 to 9/2.
+  const SystemText frame{{"x"}, "(x' + 3)^2/2", "", {}, {}, {}, {{"buffer", "x >= 0"}}};
+  const Followed found = followed(frame, state({1}, {-1}), 2, stepping(frame, 0.01));
+  CHECK(found.motion.record().impact_energy == doctest::Approx(2.5));
+  CHECK(found.motion.record().ledger_energy == doctest::Approx(2.5));
+}

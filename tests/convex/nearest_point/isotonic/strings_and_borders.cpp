@@ -198,3 +198,33 @@ TEST_CASE("what was left out can be deleted, and the bytes stay") {
   for (std::size_t k = 0; k < kept.size(); ++k)
     CHECK(again.lambda[static_cast<Index>(k)] == found.lambda[kept[k]]);
 }
+
+TEST_CASE("a first row that ties the ends of a string is no floor under it") {
+  std::mt19937 generator(46);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 400; ++k) {
+    const Index n = 2 + drawn(12, generator), end = 1 + drawn(n - 1, generator);
+    const double factor = k % 2 == 0 ? 1 : 3;
+    Entries entries{{0, 0, factor}};  // q_0 - q_end >= s_0: at most so far apart
+    entries.emplace_back(0, end, -factor);
+    Vector z(n), s = Vector::Zero(n);
+    s[0] = k % 3 == 0 ? 0 : -std::abs(normal(generator));
+    for (Index i = 0; i < n; ++i) z[i] = normal(generator);
+    for (Index i = 1; i < n; ++i) {
+      entries.emplace_back(i, i - 1, -1.0);
+      entries.emplace_back(i, i, 1.0);
+    }
+    SparseRows U(n, n);
+    U.setFromTriplets(entries.begin(), entries.end());
+    const Solution found = convex::automatic({Metric::identity(n), z, ConstraintRows(U), s, {}});
+    const Solution dense =
+        convex::active_set({Metric::identity(n), z, ConstraintRows(convex::RowMatrix(U)), s, {}});
+    CHECK(found.status == Status::solved);
+    CHECK((found.q - dense.q).norm() <= 1e-12 * z.norm());
+  }
+  SparseRows U(2, 2);
+  const Entries apart{{0, 0, 1.0}, {0, 1, -1.0}, {1, 0, -1.0}, {1, 1, 1.0}};
+  U.setFromTriplets(apart.begin(), apart.end());
+  CHECK(convex::automatic({Metric::identity(2), Vector::Zero(2), ConstraintRows(U), Vector{{1, 0}}, {}})
+            .status == Status::infeasible);
+}
