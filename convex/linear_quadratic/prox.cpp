@@ -24,6 +24,12 @@ bool keeps_rows(const LinearQuadratic& f, const Vector& xi, const Vector& z) {
   return std::all_of(f.two_sided.begin(), f.two_sided.end(), [&](Index a) { return is_kept(a, -slack[a]); });
 }
 
+/// What the rounding of x to doubles is in a full metric, at most: |W_ij| <= sqrt(W_ii W_jj).
+double rounding_in(const Metric& W, const Vector& x) {
+  if (W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal) return 0;
+  return unit_roundoff * x.cwiseAbs().dot(W.diagonal().cwiseSqrt());
+}
+
 }  // namespace
 
 Prox prox(const LinearQuadratic& f, const Vector& z, const Metric& W) {
@@ -44,7 +50,7 @@ Prox prox(const LinearQuadratic& f, const Vector& z, const Metric& W) {
   }
   found.x = point.xi.head(f.n);
   found.v = point.v;
-  found.error_bound = point.error_bound;
+  found.error_bound = point.error_bound + rounding_in(W, found.x);
   if (!keeps_rows(f, point.xi, z)) {  // in a metric that is nearly singular: then x is anywhere
     found.error_bound = infinity;
     found.status = Status::inaccurate;

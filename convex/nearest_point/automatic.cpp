@@ -72,9 +72,19 @@ bool is_large_and_sparse(const NearestPointProblem& problem) {
   return static_cast<double>(entries(problem)) <= sparse_part * n * (n + m);
 }
 
+/// An answer by special structure; none where its own residuals refute it, so that the structure was none.
+std::optional<Solution> borne_out(std::optional<Solution> found) {
+  constexpr double far = 1e-3;
+  if (!found || found->status != Status::solved) return found;
+  const Residuals& of = found->residuals;
+  const bool is_refuted =
+      std::max({of.feasibility, of.complementarity, of.stationarity, of.duality_gap}) > far;
+  return is_refuted ? std::nullopt : std::move(found);
+}
+
 /// What the obstacle method leaves open the others decide where they can.
 std::optional<Solution> obstacle_decided(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  std::optional<Solution> found = solve_obstacle(problem, accuracy);
+  std::optional<Solution> found = borne_out(solve_obstacle(problem, accuracy));
   if (found && !found->undecided.empty() && problem.dimension() <= affordable_size) return std::nullopt;
   return found;
 }
@@ -107,9 +117,10 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
       return *std::move(found);
     }
   if (accuracy.reduce && problem.U.is_sparse()) {
-    if (std::optional<Solution> found = solve_chain(problem, accuracy)) return *std::move(found);
+    if (std::optional<Solution> found = borne_out(solve_chain(problem, accuracy))) return *std::move(found);
     if (std::optional<Solution> found = obstacle_decided(problem, accuracy)) return *std::move(found);
-    if (std::optional<Solution> found = solve_bordered_chain(problem, accuracy)) return *std::move(found);
+    if (std::optional<Solution> found = borne_out(solve_bordered_chain(problem, accuracy)))
+      return *std::move(found);
   }
   std::vector<Index> likely = guess;
   if (is_large_and_sparse(problem)) {
@@ -211,7 +222,7 @@ Solution solve_valid(const NearestPointProblem& problem, const Accuracy& accurac
                      const std::vector<Index>& guess) {
   if (!accuracy.reduce) return solve_connected(problem, accuracy, guess);
   if (problem.dimension() == 0 || plainly_connected(problem)) return solve_island(problem, accuracy, guess);
-  if (std::optional<Solution> chain = solve_chain(problem, accuracy))
+  if (std::optional<Solution> chain = borne_out(solve_chain(problem, accuracy)))
     if (problem.rows() > 1) return *std::move(chain);
   if (std::optional<Solution> obstacle = obstacle_decided(problem, accuracy)) return *std::move(obstacle);
   const Islands islands = find_islands(problem);

@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "convex/nearest_point/active_set/dependence.hpp"
+#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/solution.hpp"
 
 namespace convex::inline multiplier_sets {
 
