@@ -26,6 +26,10 @@ constexpr double bearable_part = 1e-3;
 /// Velocities of a step that are uncertain by more than this part are told of.
 constexpr double unsaid_part = 1e-6;
 
+/// Contacts touch at the start where their f is 0 but for so many roundings of its terms.
+constexpr double roundings_of_touch = 16;
+constexpr double double_epsilon = std::numeric_limits<double>::epsilon();
+
 /// A contact whose rate after a step is below this part of its terms stays.
 constexpr double resting_part = 1e-9;
 
@@ -59,6 +63,10 @@ Motion::TimeStepping::TimeStepping(const LagrangianSystem& of, const State& at, 
   const mechanics::Contacts found =
       mechanics::contacts(system, state, options.contact_tolerance, Impending::allowed);
   for (const Index a : found.present) rests_[static_cast<std::size_t>(a)] = true;
+  for (Index a = 0; a < found.rates.f.size(); ++a)
+    if (!is_two_sided(a) &&
+        std::abs(found.rates.f[a]) <= roundings_of_touch * double_epsilon * found.rates.f_scale[a])
+      touch_at_start_.push_back(a);
   for (const expression::NodeId f : system.model().f)
     moves_.push_back((system.model().tape.depends(f) & expression::on_time) != 0);
   done.t = state.t;
@@ -180,7 +188,12 @@ Motion::TimeStepping::Contacts Motion::TimeStepping::contacts_at(const State& mi
 
 bool Motion::TimeStepping::find_velocity(double h, double end) {
   const double theta = options.theta, t = (1 - theta) * state.t + theta * end;
-  const std::vector<Index> constraints = closed({t, state.q + theta * h * state.v, state.v});
+  std::vector<Index> constraints = closed({t, state.q + theta * h * state.v, state.v});
+  if (is_first_) {  // those that open have a part in an impact at the start
+    constraints.insert(constraints.end(), touch_at_start_.begin(), touch_at_start_.end());
+    std::sort(constraints.begin(), constraints.end());
+    constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+  }
   velocity_ = state.v;
   if (acceleration.size() == state.v.size() && !is_first_)
     velocity_ += h * acceleration;  // as in the last step
@@ -195,6 +208,10 @@ bool Motion::TimeStepping::find_velocity(double h, double end) {
     const convex::Solution& solution = solve(velocities_, now_.constraints, now_.two_sided, now_.U, z, s,
                                              i > 0 ? Effort::warm : Effort::first);
     if (solution.status == convex::Status::infeasible) {
+      if (is_first_ && !touch_at_start_.empty()) {  // beside what the step comes to later, they have none
+        touch_at_start_.clear();
+        return find_velocity(h, end);
+      }
       status = MotionStatus::infeasible;
       for (std::size_t k = 0; k < constraints.size(); ++k)
         if (solution.farkas[static_cast<Index>(k)] != 0) excluding.push_back(constraints[k]);

@@ -90,8 +90,9 @@ class Motion::TimeStepping final : public Motion::Course {
   Vector velocity_, impulse_;  // v+, and P of `now_`
   std::vector<bool> rests_;    // by constraint: touched with f' = 0 at the end of the last step
   std::vector<bool> pushes_;   // by constraint, in the last step
-  std::vector<bool> moves_;    // by constraint: t stands in f
-  bool is_crowded_;            // very many coordinates and one-sided constraints
+  std::vector<Index> touch_at_start_;
+  std::vector<bool> moves_;  // by constraint: t stands in f
+  bool is_crowded_;          // very many coordinates and one-sided constraints
   Repeated velocities_, positions_, tangents_;
 };
 

@@ -251,6 +251,14 @@ TEST_CASE("a motion that goes on in steps has the state and the record that it h
   CHECK(std::abs(motion.state().q[0] - events.state().q[0]) <= 1e-3);
 }
 
+TEST_CASE("contacts that open at the start have a part in the impact there, in steps too") {
+  // x >= 0 opens at 1, y >= x is struck at -2, both with e = 1: v+ = (0, 2).
+  const SystemText corner{{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"c", "x >= 0"}, {"b", "y >= x"}}};
+  const Followed found = followed(corner, state({0, 0}, {1, -1}), 0.1, stepping(corner, 1e-3, 1));
+  CHECK(found.end().v[0] == doctest::Approx(0));
+  CHECK(found.end().v[1] == doctest::Approx(2));
+}
+
 TEST_CASE("the energy of an impact in a moving frame is that of T with its linear terms, in steps too") {
   // T = (x' + 3)²/2: from x' = -1 to 0 it rises from 2 to 9/2.
   const SystemText frame{{"x"}, "(x' + 3)^2/2", "", {}, {}, {}, {{"buffer", "x >= 0"}}};
