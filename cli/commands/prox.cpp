@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 #include <string>
@@ -87,7 +88,8 @@ convex::ExactGram exact_metric(const ProxOptions& options, bool is_divided, std:
 /// Above 0: a number, or a fraction of two.
 std::string positive_fraction(const std::string& text) {
   const std::optional<convex::Fraction> value = convex::read_fraction(text);
-  if (value && sign(*value) > 0) return "";
+  const double rounded = value ? convex::nearest_double(*value) : 0;
+  if (rounded > 0 && std::isfinite(rounded)) return "";
   return text + " is not a positive number; give one above 0, such as 0.5 or 1/2";
 }
 

@@ -168,7 +168,8 @@ class QpsReader {
     if (columns_.emplace(words[0], columns_.size()).second) bounds_.emplace_back();
     const std::size_t j = columns_.at(words[0]);
     pairs(words, 1, [&](const std::string& name, const std::string& value) {
-      if (name == objective_) cost_[j] = value;
+      if (name == objective_ && !cost_.emplace(j, value).second)
+        fail("the entry of " + shown(words[0]) + " in " + shown(name) + " twice");
       LinearRow* to = row(name);
       if (to == nullptr) return;
       if (to->entries.count(j) > 0) fail("the entry of " + shown(words[0]) + " in " + shown(name) + " twice");

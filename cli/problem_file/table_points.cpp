@@ -12,25 +12,29 @@ namespace {
 bool is_number(const std::string& text, double& value) {
   char* end = nullptr;
   value = std::strtod(text.c_str(), &end);
-  return *end == '\0' && std::isfinite(value) && text.find_first_of("xXpP") == std::string::npos;
+  return !text.empty() && *end == '\0' && std::isfinite(value) &&
+         text.find_first_of("xXpP") == std::string::npos;
 }
 
 }  // namespace
 
 std::vector<std::string> table_cells(const std::string& line) {
-  std::vector<std::string> found;
-  std::string cell;
-  const auto finish = [&] {
-    if (!cell.empty()) found.push_back(cell);
-    cell.clear();
+  constexpr const char* blanks = " \t\r";
+  const auto trimmed = [&](const std::string& text) {
+    const std::size_t first = text.find_first_not_of(blanks);
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
   };
-  for (const char c : line) {
-    if (c == ',' || c == ';' || c == '\t' || c == ' ' || c == '\r')
-      finish();
-    else
-      cell += c;
-  }
-  finish();
+  const std::string all = trimmed(line);
+  std::vector<std::string> found;
+  if (all.empty()) return found;
+  const char mark = all.find(';') != std::string::npos ? ';' : all.find(',') != std::string::npos ? ',' : ' ';
+  std::istringstream words(all);
+  std::string word;
+  if (mark == ' ')
+    while (words >> word) found.push_back(word);
+  else
+    while (std::getline(words, word, mark)) found.push_back(trimmed(word));
+  if (all.back() == mark) found.emplace_back();
   return found;
 }
 
@@ -48,7 +52,7 @@ mechanics::TablePoints read_table_points(const std::string& file) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     const std::vector<std::string> row = table_cells(line);
-    if (row.empty() || row[0][0] == '#') continue;
+    if (row.empty() || row[0].rfind('#', 0) == 0) continue;
     double x = 0, y = 0;
     if (row.size() == 2 && is_number(row[0], x) && is_number(row[1], y)) {
       points.x.push_back(x);

@@ -79,6 +79,7 @@ std::optional<double> force_per_multiplier(const Scene& scene, Index constraint)
     }
     if (involved.empty() || (is_linear && involved.size() > 1)) return std::nullopt;
     is_between = is_between_two_points(scene, constraint, u, involved);
+    if (is_between && involved.size() == 2) return std::nullopt;  // or of one point in a plane
   } catch (const convex::InvalidInput&) {
     return std::nullopt;  // no derivative near by
   }

@@ -74,12 +74,12 @@ bool is_large_and_sparse(const NearestPointProblem& problem) {
 
 /// An answer by special structure; none where its own residuals refute it, so that the structure was none.
 std::optional<Solution> borne_out(std::optional<Solution> found) {
-  constexpr double far = 1e-3;
+  constexpr double far = 1e-3;  // beyond any rounding
   if (!found || found->status != Status::solved) return found;
   const Residuals& of = found->residuals;
-  const bool is_refuted =
-      std::max({of.feasibility, of.complementarity, of.stationarity, of.duality_gap}) > far;
-  return is_refuted ? std::nullopt : std::move(found);
+  const bool is_near =
+      of.feasibility <= far && of.complementarity <= far && of.stationarity <= far && of.duality_gap <= far;
+  return is_near ? std::move(found) : std::nullopt;
 }
 
 /// What the obstacle method leaves open the others decide where they can.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -132,6 +133,9 @@ struct OfShares {
   }
   DoubleDouble slope(Index i) const { return quotient(DoubleDouble{1, 0}, DoubleDouble{d[i], 0}); }
   double breakpoint(Index i, double value) const { return d[i] * (v[i] - value); }
+  DoubleDouble level_of(Index i, double value) const {
+    return product(add(DoubleDouble{v[i], 0}, DoubleDouble{-value, 0}), d[i]);
+  }
 };
 
 /// slope_i (point_i - level).
@@ -144,6 +148,10 @@ struct OfPoints {
   }
   DoubleDouble slope(Index i) const { return {weight[i], 0}; }
   double breakpoint(Index i, double value) const { return point[i] - value / weight[i]; }
+  DoubleDouble level_of(Index i, double value) const {
+    return add(DoubleDouble{point[i], 0},
+               negative(quotient(DoubleDouble{value, 0}, DoubleDouble{weight[i], 0})));
+  }
 };
 
 /// The terms clamped to [0, cap], the sum of all, and by how much that falls as the level rises.
@@ -164,9 +172,10 @@ Clamped clamped(const Terms& terms, Index n, double cap, DoubleDouble level) {
     if (rough < -margin || !std::isfinite(margin)) continue;
     const DoubleDouble x = rough > cap + margin ? DoubleDouble{cap, 0} : terms(i, level);
     if (!(x.value() > 0)) continue;
+    const bool is_free = std::isinf(cap) || add(x, DoubleDouble{-cap, 0}).value() < 0;
     found.x[i] = std::min(x.value(), cap);
-    sum.add(x.value() < cap ? x : DoubleDouble{cap, 0});
-    if (!(x.value() < cap)) continue;
+    sum.add(is_free ? x : DoubleDouble{cap, 0});
+    if (!is_free) continue;
     found.is_free[static_cast<std::size_t>(i)] = true;
     slope.add(terms.slope(i));
   }
@@ -175,38 +184,48 @@ Clamped clamped(const Terms& terms, Index n, double cap, DoubleDouble level) {
   return found;
 }
 
-/// The next level at which an entry becomes free, above or below one at which none is.
+/// Where none is free, the level at which the first entry to become so makes up for what is missing, or too
+/// much, as far as it can by itself. None where nothing is left to move.
 template <class Terms>
-double next_breakpoint(const Terms& terms, Index n, double cap, double level, bool above) {
-  const double none = std::numeric_limits<double>::infinity();
-  double next = above ? none : -none;
-  const auto look = [&](double at) {
-    if (above ? at > level && at < next : at < level && at > next) next = at;
-  };
-  for (Index i = 0; i < n; ++i) {
-    look(terms.breakpoint(i, 0));
-    if (cap < none) look(terms.breakpoint(i, cap));
+std::optional<DoubleDouble> level_of_next(const Terms& terms, const Clamped& at, double cap, double excess) {
+  const double fixed = excess > 0 ? cap : 0;
+  Index next = -1;
+  double best = 0;
+  for (Index i = 0; i < at.x.size(); ++i) {
+    if (at.x[i] != fixed) continue;
+    const double breakpoint = terms.breakpoint(i, fixed);
+    if (next >= 0 && !(excess > 0 ? breakpoint < best : breakpoint > best)) continue;
+    next = i;
+    best = breakpoint;
   }
-  return next;
+  if (next < 0) return std::nullopt;
+  return terms.level_of(next, excess > 0 ? std::max(0.0, cap - excess) : std::min(cap, -excess));
 }
 
-/// Newton's steps on the piecewise linear sum, which end where the same entries stay free.
+/// Newton's steps on the piecewise linear sum, which end where the same entries stay free; within the levels
+/// between which the total lies, once there are two.
 template <class Terms>
 Clamped with_total(const Terms& terms, Index n, double cap, double total, double near) {
-  constexpr int most_steps = 100;
+  constexpr int most_steps = 200;
   Clamped at = clamped(terms, n, cap, {near, 0});
-  const auto excess_of = [&](const Clamped& one) { return add(one.sum, DoubleDouble{-total, 0}); };
+  std::optional<DoubleDouble> low, high;
   for (int step = 0; step < most_steps; ++step) {
-    const DoubleDouble excess = excess_of(at);
+    const DoubleDouble excess = add(at.sum, DoubleDouble{-total, 0});
     if (excess.value() == 0) break;
+    (excess.value() > 0 ? low : high) = at.level;
     const bool is_free = at.slope.hi > 0;
-    const DoubleDouble level =
-        is_free ? add(at.level, quotient(excess, at.slope))
-                : DoubleDouble{next_breakpoint(terms, n, cap, at.level.value(), excess.value() > 0), 0};
-    if (!std::isfinite(level.hi)) break;
-    Clamped next = clamped(terms, n, cap, level);
+    std::optional<DoubleDouble> level =
+        is_free ? add(at.level, quotient(excess, at.slope)) : level_of_next(terms, at, cap, excess.value());
+    const auto is_above = [](const DoubleDouble& x, const DoubleDouble& y) {
+      return add(x, negative(y)).value() > 0;
+    };
+    if (low && high && !(level && is_above(*level, *low) && is_above(*high, *level))) {
+      level = product(add(*low, *high), 0.5);
+      if (!is_above(*level, *low) || !is_above(*high, *level)) break;
+    }
+    if (!level || !std::isfinite(level->hi)) break;
+    Clamped next = clamped(terms, n, cap, *level);
     const bool is_settled = is_free && next.is_free == at.is_free;
-    if (step > most_steps / 2 && !(std::abs(excess_of(next).value()) < std::abs(excess.value()))) break;
     at = std::move(next);
     if (is_settled) break;
   }

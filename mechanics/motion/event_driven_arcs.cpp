@@ -11,8 +11,6 @@
 namespace mechanics::inline motions {
 namespace {
 
-constexpr double arc_epsilon = std::numeric_limits<double>::epsilon();
-
 /// A step that misses the equations at its end by more than this many times its tolerance is taken again.
 constexpr double allowed_defect = 1;
 
@@ -67,7 +65,7 @@ bool Motion::EventDriven::is_met(double at, double tau) {
   const double size = expansion_.norm(q2_);
   q2_ -= expected_q2_;
   const double defect = expansion_.norm(q2_) * tau * tau;
-  const double rounding = 1e4 * arc_epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
+  const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
   const double orders = static_cast<double>(next.q.cols());
   return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
 }
@@ -81,7 +79,7 @@ bool Motion::EventDriven::is_passed(double tau) {
           options.tolerance * std::max(expansion_.position_scale(a), expansion_.rate_scale(a) * tau)))
       continue;
     // f may have constants whose rounding is more than what it is now.
-    if (beyond <= roundings_of_passing * arc_epsilon * system.constraint_rates(there_).f_scale[a]) continue;
+    if (beyond <= roundings_of_passing * epsilon * system.constraint_rates(there_).f_scale[a]) continue;
     obstacle_ = constraint_name(a) + " is passed, and its series does not tell when";
     return true;
   }
@@ -92,7 +90,7 @@ bool Motion::EventDriven::is_passed(double tau) {
 void Motion::EventDriven::project() {
   if (persist_.empty()) return;
   constexpr int most_corrections = 12;
-  constexpr double smallest = 4 * arc_epsilon, largest = 1e-6;
+  constexpr double smallest = 4 * epsilon, largest = 1e-6;
   const auto rows = static_cast<Index>(persist_.size());
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_corrections; ++i) {
@@ -118,8 +116,8 @@ void Motion::EventDriven::project() {
   // Constants in f and in df/dt have roundings that the coordinates do not tell of.
   const ConstraintRates rates = system.constraint_rates(state);
   if (std::all_of(persist_.begin(), persist_.end(), [&](Index a) {
-        return std::abs(expansion_.f(a)) <= roundings_of_constants * arc_epsilon * rates.f_scale[a] &&
-               std::abs(expansion_.rate(a)) <= roundings_of_constants * arc_epsilon * rates.df_scale[a];
+        return std::abs(expansion_.f(a)) <= roundings_of_constants * epsilon * rates.f_scale[a] &&
+               std::abs(expansion_.rate(a)) <= roundings_of_constants * epsilon * rates.df_scale[a];
       }))
     return;
   stop("at t = " + number_text(state.t) +

@@ -59,8 +59,9 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   for (const Zero& zero : zeros) {
     if (zero.of == Zero::Of::branch) switches.push_back(zero.which);
     if (zero.of != Zero::Of::constraint) continue;
-    // Without its gradient a contact closes at no speed: it is touched, and d²f/dt² tells whether it opens.
+    // Where its gradient vanishes a contact is touched, and d²f/dt² tells whether it opens.
     const bool is_lost = expansion_.has_lost_gradient(zero.which);
+    if (is_lost && !turns_within_rounding(zero.which)) return stop_at_vanishing_gradient(zero.which);
     if (is_lost) lost.push_back(zero.which);
     const bool closes = !is_lost && expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
     (closes && !zero.is_touch && !zero.is_soft ? closing : touching).push_back(zero.which);

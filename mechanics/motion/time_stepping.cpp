@@ -294,6 +294,16 @@ void Motion::TimeStepping::take_step(double h, double end) {
   done.persist = now_.constraints;
 }
 
+/// b·v of the kinetic energy v'Av/2 + b·v + c where the step has its forces; 0 where rounding may have made
+/// it.
+double Motion::TimeStepping::linear_part_of_energy(const Vector& v) const {
+  const double all = system.kinetic_energy({middle_.t, middle_.q, v}),
+               of_time = system.kinetic_energy({middle_.t, middle_.q, Vector::Zero(v.size())}),
+               quadratic = 0.5 * v.dot(A_->multiply(v)), linear = all - of_time - quadratic;
+  constexpr double roundings = 64 * std::numeric_limits<double>::epsilon();
+  return std::abs(linear) <= roundings * (std::abs(all) + std::abs(of_time) + quadratic) ? 0 : linear;
+}
+
 void Motion::TimeStepping::tell_events(double h, const Vector& velocity_before) {
   const Vector after = now_.U.times(velocity_) + now_.drift;
   const Vector length = now_.U.lengths(A_->diagonal().cwiseInverse());
@@ -324,11 +334,9 @@ void Motion::TimeStepping::tell_events(double h, const Vector& velocity_before) 
     event(EventKind::impact, hit, velocity_before);
     // T+ - T- = b·(v+ - v-) + (v+'A v+ - v-'A v-)/2 where the step has its forces, less what these do.
     const Vector change = velocity_ - velocity_before, middle = 0.5 * (velocity_ + velocity_before);
-    const double quadratic = middle.dot(A_->multiply(change)), of_forces = h * middle.dot(z_);
-    const double all = system.kinetic_energy({middle_.t, middle_.q, velocity_}) -
-                       system.kinetic_energy({middle_.t, middle_.q, velocity_before});
-    record.impact_energy += all - of_forces;
-    record.ledger_energy += work + (all - quadratic);
+    const double linear = linear_part_of_energy(change);
+    record.impact_energy += middle.dot(A_->multiply(change) - h * z_) + linear;
+    record.ledger_energy += work + linear;
   }
   if (!met.empty()) event(EventKind::contact, met, velocity_before);
   if (!left.empty() && !is_first_) event(EventKind::release, left, velocity_before);

@@ -75,6 +75,7 @@ class Motion::TimeStepping final : public Motion::Course {
   /// v+ and P; false when the motion ends here.
   bool find_velocity(double h, double end);
   void tell_error(double error, double size);
+  double linear_part_of_energy(const Vector& v) const;
   void tell_events(double h, const Vector& velocity_before);
   void take_near(const ConstraintRates& rates, std::vector<bool>& counts) const;
   void correct_position();

@@ -45,6 +45,9 @@ TEST_CASE("no row of numbers of a table is taken for its heading") {
         table += std::string(z) + apart + Tz + "\n";
       CHECK(run({"check", "--table", folder.write("map.csv", table)}).out.find("Refuted") == 0);
     }
+  // Decimal commas, and a number that is missing.
+  for (const char* table : {"-2,0;1,0\n0,0;0,0\n2,0;1,0\n", "1,,2\n2,,3\n"})
+    CHECK(run({"check", "--table", folder.write("map.csv", table)}).code == 2);
   const Outcome wrong = run({"check", "--table", folder.write("map.csv", "1,2x\n2,3\n3,4\n")});
   CHECK(wrong.code == 2);
   CHECK(wrong.err.find("map.csv:1:1: no row of numbers") != std::string::npos);

@@ -47,6 +47,7 @@ void take_rows_with_small_coefficients(Dependence& rows, Vector& lambda) {
   constexpr double large = 16;
   // Each step multiplies the volume of the basis by more than `large`.
   constexpr Index most_steps = 200;
+  if (rows.T.size() == 0) return;
   for (Index step = 0; step < most_steps; ++step) {
     Index k = 0, p = 0;
     const double pivot = rows.T.cwiseAbs().maxCoeff(&k, &p);
@@ -68,8 +69,8 @@ void take_rows_with_small_coefficients(Dependence& rows, Vector& lambda) {
   }
 }
 
-/// Of one group, beside whatever the others have.
-void least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_free, Vector& lambda) {
+/// Of one group, beside whatever the others have; false where none are found.
+bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_free, Vector& lambda) {
   const Index d = rows.T.cols(), k = rows.T.rows();
   std::vector<Index> names = rows.basic;
   names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
@@ -89,7 +90,10 @@ void least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   if (d > std::max(k, many)) {
     std::vector<bool> free;
     for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
-    if (Vector best = start; least_norm_by_newton(rows.T, free, best)) return take(best);
+    if (Vector best = start; least_norm_by_newton(rows.T, free, best)) {
+      take(best);
+      return true;
+    }
   }
   Matrix N(k + d, d);
   N.topRows(k) = -rows.T;
@@ -100,7 +104,7 @@ void least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   constexpr double steep = 1e5;
   constexpr Index few = 24;
   if (rows.T.norm() > steep) {
-    if (k + d <= few && least_norm_in_fractions(rows, names, is_free, start, lambda)) return;
+    if (k + d <= few && least_norm_in_fractions(rows, names, is_free, start, lambda)) return true;
     N = linear_algebra::Householder(N).Q(d);
   }
   std::vector<Index> signed_rows;
@@ -113,8 +117,9 @@ void least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   for (std::size_t j = 0; j < signed_rows.size(); ++j)
     problem.s[static_cast<Index>(j)] = -start[signed_rows[j]];
   const Solution solution = active_set(problem, {.limit = 0});
-  if (solution.q.size() != d) return;
+  if (solution.q.size() != d) return false;
   take(start + N * solution.q);
+  return true;
 }
 
 /// What lambda misses of a reaction, put on the rows that others depend on.
@@ -156,7 +161,7 @@ bool least_norm(const NearestPointProblem& problem, const Solution& solution, st
   const auto missing = [&] { return problem.A.dual_norm(problem.U.transpose_times(lambda) - reaction); };
   for (Dependence& rows : groups) {
     take_rows_with_small_coefficients(rows, lambda);
-    least_norm_of_group(rows, is_free, lambda);
+    if (!least_norm_of_group(rows, is_free, lambda)) return false;
   }
   constexpr int most_refinements = 3;
   constexpr double roundings = 64 * unit_roundoff;
@@ -165,10 +170,12 @@ bool least_norm(const NearestPointProblem& problem, const Solution& solution, st
     if (left <= roundings * std::max(solution.force_norm, solution.acceleration_norm)) break;
     const Vector before = lambda;
     if (!put_missing_force_on_basis(problem, reaction, groups, lambda)) break;
-    for (const Dependence& rows : groups) least_norm_of_group(rows, is_free, lambda);
+    const bool is_found = std::all_of(groups.begin(), groups.end(), [&](const Dependence& rows) {
+      return least_norm_of_group(rows, is_free, lambda);
+    });
     const double was = left;
     left = missing();
-    if (left < was) continue;
+    if (is_found && left < was) continue;
     lambda = before;
     break;
   }

@@ -53,7 +53,10 @@ class MultiplierTableau {
     }
     settle_free_columns();
     note_vertex();
-    if (is_rounded) start_ = now_;
+    if (is_rounded) {
+      start_ = now_;
+      start_growth_ = growth_;
+    }
   }
 
   /// The interval of the multiplier named `a` over the polyhedron; not a number where rounding keeps the
@@ -68,7 +71,7 @@ class MultiplierTableau {
     if (is_rounded && pivots_ > (is_small ? 0 : most_pivots_since_start)) {
       now_ = start_;
       pivots_ = 0;
-      growth_ = 1;
+      growth_ = start_growth_;
     }
     std::optional<Number> low = vanishes_[at(a)] ? std::optional<Number>(Number{}) : extreme(a, false);
     return {std::move(low), grows_[at(a)] ? std::nullopt : extreme(a, true)};
@@ -273,7 +276,7 @@ class MultiplierTableau {
   std::vector<bool> vanishes_, grows_;  ///< at a vertex, along an edge that were met; of free ones the latter
   std::vector<bool> fixed_;
   Number value_noise_{}, rounding_{};
-  double growth_ = 1;  ///< of rounding, by the smallest pivot since the start
+  double growth_ = 1, start_growth_ = 1;  ///< of rounding, by the smallest pivot: now, in `start_`
   mutable bool is_in_doubt_ = false;
   double words_ = 0, most_words_ = std::numeric_limits<double>::infinity();
   Index pivots_ = 0;  // since the tableau was as at the start

@@ -210,3 +210,18 @@ TEST_CASE("an empty simplex, a negative radius and a metric that is none are ref
   CHECK_THROWS_AS(k::proj_capped_simplex(z, 1, 3.5), convex::InvalidInput);
   CHECK_THROWS_AS(k::prox_sum_largest(z, 4), convex::InvalidInput);
 }
+
+TEST_CASE("points so far away that the level rounds onto the topmost of them are projected as in fractions") {
+  const auto near = [](const Vector& x, const Vector& right) {
+    return (x - right).cwiseAbs().maxCoeff() <= 4 * convex::unit_roundoff * right.cwiseAbs().maxCoeff();
+  };
+  CHECK(near(k::proj_ball1(Vector{{1e17}}, 1, Vector{{2}}), Vector{{1}}));
+  CHECK(near(k::proj_simplex(Vector{{2e16, 1e16}}, 1, Vector{{1, 2}}), Vector{{2.0 / 3, 1.0 / 3}}));
+  CHECK(near(k::proj_simplex(Vector{{2e9, 1e9}}, 1e-8, Vector{{1, 2}}), Vector{{2e-8 / 3, 1e-8 / 3}}));
+  for (const double far : {1e17, -1e17})
+    CHECK(near(k::proj_capped_simplex(Vector{{far, far}}, 1, 1), Vector{{0.5, 0.5}}));
+  CHECK(near(k::proj_capped_simplex(Vector{{1e17, -1e17, 3}}, 1, 3), Vector{{1, 1, 1}}));
+  CHECK(near(k::proj_capped_simplex(Vector{{1e17, -1e17, 3}}, 1, 0), Vector{{0, 0, 0}}));
+  // 1e6 times 0.1 is more than 1e5 by a rounding.
+  CHECK(near(k::proj_capped_simplex(Vector::Ones(1000000), 0.1, 1e5), Vector::Constant(1000000, 0.1)));
+}

@@ -168,6 +168,11 @@ TEST_CASE(
     const Followed stepped = followed(crank, state({upright - 0.0101}, {1}), 0.02, options);
     CHECK(stepped.end().v[0] == doctest::Approx(1).epsilon(1e-9));
   }
+  // A gradient that large terms hide is none that vanishes: f = x, which no body passes.
+  const SystemText hidden{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "-0.1*x", {}, {}, {}, {{"wall", "sqrt(y^2)*x - (y-1)*x >= 0"}}};
+  const Followed met = followed(hidden, state({0.5, 3e8}, {-1, 0}), 0.7);
+  CHECK(met.end().q[0] >= -1e-9);
   // Where f'' has the other sign, or is 0, nothing tells what becomes of it, and no velocity is lost.
   for (const char* wall : {"(a - pi/2)^3 <= 0", "a - pi/2 <= sin(a - pi/2)"}) {
     const SystemText stop{{"a"}, "a'^2/2", "", {}, {}, {}, {{"wall", wall}}};
