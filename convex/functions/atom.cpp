@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/functions/closed_form.hpp"
@@ -63,8 +64,10 @@ Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d, const L
       (result.v - covector).cwiseQuotient(root).stableNorm() + f.subgradient_miss(result.x, result.v, d) +
       distance_in_gap(f.facts(), result.duality_gap, size_of_x, result.v.cwiseQuotient(root).stableNorm()) +
       roundings_of_a_formula * unit_roundoff * (root.cwiseProduct(z).stableNorm() + size_of_x);
+  constexpr double largest = std::numeric_limits<double>::max();  // no bound is within an infinite scale
   const double scale = std::max({1.0, root.cwiseProduct(z).stableNorm(), size_of_x});
-  if (!(result.error_bound <= membership_tolerance * scale)) result.status = Status::inaccurate;
+  if (!(result.error_bound <= membership_tolerance * std::min(scale, largest)))
+    result.status = Status::inaccurate;
   result.method = "closed form";
   result.by_conjugate = f.prox_by_conjugate();
   return result;

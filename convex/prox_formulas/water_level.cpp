@@ -206,7 +206,8 @@ std::optional<DoubleDouble> level_of_next(const Terms& terms, const Clamped& at,
 /// between which the total lies, once there are two.
 template <class Terms>
 Clamped with_total(const Terms& terms, Index n, double cap, double total, double near) {
-  constexpr int most_steps = 200;
+  constexpr int most_steps = 400;
+  constexpr double settled = 0x1p-90;
   Clamped at = clamped(terms, n, cap, {near, 0});
   std::optional<DoubleDouble> low, high;
   for (int step = 0; step < most_steps; ++step) {
@@ -219,13 +220,17 @@ Clamped with_total(const Terms& terms, Index n, double cap, double total, double
     const auto is_above = [](const DoubleDouble& x, const DoubleDouble& y) {
       return add(x, negative(y)).value() > 0;
     };
+    const bool is_newton = is_free && !(low && high && !(is_above(*level, *low) && is_above(*high, *level)));
     if (low && high && !(level && is_above(*level, *low) && is_above(*high, *level))) {
       level = product(add(*low, *high), 0.5);
       if (!is_above(*level, *low) || !is_above(*high, *level)) break;
     }
     if (!level || !std::isfinite(level->hi)) break;
     Clamped next = clamped(terms, n, cap, *level);
-    const bool is_settled = is_free && next.is_free == at.is_free;
+    // The first step on a piece may come from far away, with few digits.
+    const double left = std::abs(add(next.sum, DoubleDouble{-total, 0}).value());
+    const bool is_settled = is_newton && next.is_free == at.is_free &&
+                            (left <= settled * total || !(left < std::abs(excess.value()) / 2));
     at = std::move(next);
     if (is_settled) break;
   }

@@ -225,3 +225,19 @@ TEST_CASE("points so far away that the level rounds onto the topmost of them are
   // 1e6 times 0.1 is more than 1e5 by a rounding.
   CHECK(near(k::proj_capped_simplex(Vector::Ones(1000000), 0.1, 1e5), Vector::Constant(1000000, 0.1)));
 }
+
+TEST_CASE("kinks at which slopes are 2^60 apart do not hold the level fast") {
+  const auto near = [](const Vector& x, const Vector& right) {
+    return (x - right).cwiseAbs().maxCoeff() <= 4 * convex::unit_roundoff;
+  };
+  const double least = std::ldexp(1, -15);
+  const Vector capped = k::proj_capped_simplex(Vector{{3, 0, 3, 0, 0, -3}}, 1, 5,
+                                               Vector{{1, least, 1, least, 1 / least, least}});
+  const double rest = 4 / (1 + std::ldexp(1, 30));  // (3 + 1) d_5 / (d_4 + d_5)
+  CHECK(near(capped, Vector{{1, 1, 1, 1, rest, 1 - rest}}));
+  const Vector d{{std::ldexp(1, 60), std::ldexp(1, -60)}};
+  CHECK(near(k::prox_max(Vector{{0.5, 1.5}}, 1, d), Vector{{0.5, 0.5}}));
+  const double far = std::ldexp(1, -30);
+  const Vector largest = k::prox_sum_largest(Vector{{0, 1, 1.5}}, 2, 1, Vector{{1 / far, far, 1}});
+  CHECK(near(largest, Vector{{-far, -far, 0.5}}));
+}
