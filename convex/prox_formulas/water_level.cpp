@@ -158,14 +158,14 @@ struct OfPoints {
 struct Clamped {
   DoubleDouble level;
   Vector x;
-  std::vector<bool> is_free;
+  std::vector<char> piece;  ///< of each: 0 at zero, 1 free, 2 at the cap
   DoubleDouble sum, slope;
 };
 
 template <class Terms>
 Clamped clamped(const Terms& terms, Index n, double cap, DoubleDouble level) {
   constexpr double near = 1e-8;  // of the parts of a difference that doubles do not tell the sign of
-  Clamped found{level, Vector::Zero(n), std::vector<bool>(static_cast<std::size_t>(n)), {}, {}};
+  Clamped found{level, Vector::Zero(n), std::vector<char>(static_cast<std::size_t>(n)), {}, {}};
   RunningSum sum, slope;
   for (Index i = 0; i < n; ++i) {
     const double rough = terms.rough(i, level.hi), margin = near * terms.size(i, level.hi);
@@ -175,8 +175,8 @@ Clamped clamped(const Terms& terms, Index n, double cap, DoubleDouble level) {
     const bool is_free = std::isinf(cap) || add(x, DoubleDouble{-cap, 0}).value() < 0;
     found.x[i] = std::min(x.value(), cap);
     sum.add(is_free ? x : DoubleDouble{cap, 0});
+    found.piece[static_cast<std::size_t>(i)] = is_free ? 1 : 2;
     if (!is_free) continue;
-    found.is_free[static_cast<std::size_t>(i)] = true;
     slope.add(terms.slope(i));
   }
   found.sum = sum.tidy();
@@ -202,7 +202,7 @@ std::optional<DoubleDouble> level_of_next(const Terms& terms, const Clamped& at,
   return terms.level_of(next, excess > 0 ? std::max(0.0, cap - excess) : std::min(cap, -excess));
 }
 
-/// Newton's steps on the piecewise linear sum, which end where the same entries stay free; within the levels
+/// Newton's steps on the piecewise linear sum, which end where all stay on their pieces; within the levels
 /// between which the total lies, once there are two.
 template <class Terms>
 Clamped with_total(const Terms& terms, Index n, double cap, double total, double near) {
@@ -229,7 +229,7 @@ Clamped with_total(const Terms& terms, Index n, double cap, double total, double
     Clamped next = clamped(terms, n, cap, *level);
     // The first step on a piece may come from far away, with few digits.
     const double left = std::abs(add(next.sum, DoubleDouble{-total, 0}).value());
-    const bool is_settled = is_newton && next.is_free == at.is_free &&
+    const bool is_settled = is_newton && next.piece == at.piece &&
                             (left <= settled * total || !(left < std::abs(excess.value()) / 2));
     at = std::move(next);
     if (is_settled) break;
