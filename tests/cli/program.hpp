@@ -20,7 +20,7 @@ Outcome run(const std::vector<std::string>& arguments, const std::string& input 
 /// A command of the shell in which "$0" "$@" stands for the program with its arguments.
 Outcome run_by_shell(const std::string& command, std::vector<std::string> arguments);
 
-/// The same as `run` with so much memory and no more.
+/// The same as `run` with so much memory and no more; without a limit under the address sanitizer.
 Outcome run_within(int megabytes, std::vector<std::string> arguments);
 
 /// A folder of its own for one test, gone with it.
