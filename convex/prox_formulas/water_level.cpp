@@ -220,8 +220,8 @@ Clamped with_total(const Terms& terms, Index n, double cap, double total, double
     const auto is_above = [](const DoubleDouble& x, const DoubleDouble& y) {
       return add(x, negative(y)).value() > 0;
     };
-    const bool is_newton = is_free && !(low && high && !(is_above(*level, *low) && is_above(*high, *level)));
-    if (low && high && !(level && is_above(*level, *low) && is_above(*high, *level))) {
+    const bool is_inside = !low || !high || (level && is_above(*level, *low) && is_above(*high, *level));
+    if (!is_inside) {
       level = product(add(*low, *high), 0.5);
       if (!is_above(*level, *low) || !is_above(*high, *level)) break;
     }
@@ -229,7 +229,7 @@ Clamped with_total(const Terms& terms, Index n, double cap, double total, double
     Clamped next = clamped(terms, n, cap, *level);
     // The first step on a piece may come from far away, with few digits.
     const double left = std::abs(add(next.sum, DoubleDouble{-total, 0}).value());
-    const bool is_settled = is_newton && next.piece == at.piece &&
+    const bool is_settled = is_free && is_inside && next.piece == at.piece &&
                             (left <= settled * total || !(left < std::abs(excess.value()) / 2));
     at = std::move(next);
     if (is_settled) break;

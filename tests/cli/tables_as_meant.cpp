@@ -66,22 +66,17 @@ TEST_CASE("beyond a table its equations have no number") {
 
 TEST_CASE("the force of a contact between two points is that on one of them, and turning a body is none") {
   const Folder folder;
-  const std::string rope = folder.write(
-      "rope.toml",
-      "[system]\ncoordinates = [\"x1\", \"y1\", \"x2\", \"y2\"]\n"
-      "kinetic = \"(x1'^2 + y1'^2)/2 + (x2'^2 + y2'^2)/2\"\n[system.forces]\n"
-      "x1 = -6\ny1 = -8\nx2 = 6\ny2 = 8\n[system.constraints]\nrope = \"hypot(x2 - x1, y2 - y1) <= 5\"\n"
-      "[state.position]\nx1 = 0\ny1 = 0\nx2 = 3\ny2 = 4\n");
-  const std::string text = run({"solve", rope}).out;
+  const auto rope_of = [&](const std::string& constraint) {
+    return folder.write("rope.toml",
+                        "[system]\ncoordinates = [\"x1\", \"y1\", \"x2\", \"y2\"]\n"
+                        "kinetic = \"(x1'^2 + y1'^2)/2 + (x2'^2 + y2'^2)/2\"\n[system.forces]\n"
+                        "x1 = -6\ny1 = -8\nx2 = 6\ny2 = 8\n[system.constraints]\nrope = \"" +
+                            constraint + "\"\n[state.position]\nx1 = 0\ny1 = 0\nx2 = 3\ny2 = 4\n");
+  };
+  const std::string text = run({"solve", rope_of("hypot(x2 - x1, y2 - y1) <= 5")}).out;
   CHECK(text.find("|lambda grad f|") == std::string::npos);                     // lambda is the force, 10
   CHECK(text.substr(0, text.find("Solved")).find("e-1") == std::string::npos);  // no rounding is shown
-  const std::string squared = folder.write(
-      "squared.toml",
-      "[system]\ncoordinates = [\"x1\", \"y1\", \"x2\", \"y2\"]\n"
-      "kinetic = \"(x1'^2 + y1'^2)/2 + (x2'^2 + y2'^2)/2\"\n[system.forces]\n"
-      "x1 = -6\ny1 = -8\nx2 = 6\ny2 = 8\n[system.constraints]\nrope = \"(x2 - x1)^2 + (y2 - y1)^2 <= 25\"\n"
-      "[state.position]\nx1 = 0\ny1 = 0\nx2 = 3\ny2 = 4\n");
-  const std::string explained = run({"explain", squared}).out;
+  const std::string explained = run({"explain", rope_of("(x2 - x1)^2 + (y2 - y1)^2 <= 25")}).out;
   CHECK(explained.find("|lambda grad f| = 10") != std::string::npos);
   const std::string slope = folder.write(
       "slope.toml",
