@@ -103,16 +103,33 @@ void residual(Index n, Index stride, double d, double c, const double* z, const 
 }
 
 MOREAU_CLONES
-void precise_residual(Index n, Index stride, double d, double c, const double* z, const double* hi,
-                      const double* lo, double* __restrict out) {
-  const auto pair = [&](Index i) { return DoubleDouble{hi[i], lo[i]}; };
+void precise_residual(Index n, Index stride, double d, double c, const double* z_hi, const double* z_lo,
+                      const double* u_hi, const double* u_lo, double* __restrict out) {
+  const auto pair = [&](Index i) { return DoubleDouble{u_hi[i], u_lo[i]}; };
   for (Index i = 0; i < n; ++i) {
     const DoubleDouble around = add(add(pair(i - 1), pair(i + 1)), add(pair(i - stride), pair(i + stride)));
-    DoubleDouble beside = two_product(c, around.hi), centre = two_product(-d, hi[i]);
+    DoubleDouble beside = two_product(c, around.hi), centre = two_product(-d, u_hi[i]);
     beside.lo += c * around.lo;
-    centre.lo -= d * lo[i];
-    out[i] = add({z[i], 0}, add(beside, centre)).value();
+    centre.lo -= d * u_lo[i];
+    out[i] = add({z_hi[i], z_lo[i]}, add(beside, centre)).value();
   }
+}
+
+MOREAU_CLONES
+double energy(Index n, Index stride, double d, double c, const double* u) {
+  constexpr Index lanes_of_doubles = lanes / 2;
+  double sums[lanes_of_doubles] = {}, sum = 0;
+  const double excess = d - 4 * c;
+  const auto at = [&](Index i) {
+    const double left = u[i] - u[i - 1], below = u[i] - u[i - stride];
+    return excess * u[i] * u[i] + c * (left * left + below * below);
+  };
+  Index i = 0;
+  for (; i + lanes_of_doubles <= n; i += lanes_of_doubles)
+    for (Index l = 0; l < lanes_of_doubles; ++l) sums[l] += at(i + l);
+  for (; i < n; ++i) sums[i % lanes_of_doubles] += at(i);
+  for (double one : sums) sum += one;
+  return sum;
 }
 
 MOREAU_CLONES

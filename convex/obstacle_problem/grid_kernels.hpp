@@ -32,9 +32,11 @@ void spread(Index n, Index count, const float* m0, const float* m1, const float*
 double apply(Index n, Index stride, const float* d, float c, const float* free, const float* u, float* out);
 /// out = z - (d u - c Σ neighbours).
 void residual(Index n, Index stride, double d, double c, const double* z, const double* u, double* out);
-/// The same with u = hi + lo, in twice the working precision, rounded at the end.
-void precise_residual(Index n, Index stride, double d, double c, const double* z, const double* hi,
-                      const double* lo, double* out);
+/// The same with z and u as pairs, in twice the working precision, rounded at the end.
+void precise_residual(Index n, Index stride, double d, double c, const double* z_hi, const double* z_lo,
+                      const double* u_hi, const double* u_lo, double* out);
+/// (d - 4c) Σ u² + c Σ (difference to the one on the left)² + c Σ (to the one below)², over n points.
+double energy(Index n, Index stride, double d, double c, const double* u);
 
 /// free = 1 where rest >= d (lower - u), else 0; how many changed.
 double choose(Index n, double d, const double* lower, const double* u, const double* rest, double* free);

@@ -20,7 +20,13 @@ class GridSolver {
  public:
   GridSolver(const ObstacleGrid& grid, GridMultigrid& multigrid, const std::function<void(Index)>& told,
              bool sharp)
-      : grid_(grid), A_(grid.A), sharp_(sharp), multigrid_(multigrid), told_(told), free_(A_.field()) {
+      : grid_(grid),
+        A_(grid.A),
+        sharp_(sharp),
+        multigrid_(multigrid),
+        told_(told),
+        free_(A_.field()),
+        nothing_(A_.field()) {
     point_.q = DoubleDoubleVector(A_.size());
     point_.rest = A_.field();
     for (Vector* colour : {&even_, &odd_}) *colour = Vector::Zero(A_.width + 1);
@@ -104,7 +110,8 @@ class GridSolver {
   void precise_residual() {
     for_rows([&](Index k) {
       grid_kernels::precise_residual(A_.width, A_.stride(), A_.d, A_.c, grid_.z.data() + k,
-                                     point_.q.hi.data() + k, point_.q.lo.data() + k, point_.rest.data() + k);
+                                     nothing_.data() + k, point_.q.hi.data() + k, point_.q.lo.data() + k,
+                                     point_.rest.data() + k);
     });
   }
 
@@ -169,7 +176,7 @@ class GridSolver {
   GridMultigrid& multigrid_;
   const std::function<void(Index)>& told_;
   ObstaclePoint point_;
-  Vector free_, correction_, even_, odd_;
+  Vector free_, nothing_, correction_, even_, odd_;
 };
 
 }  // namespace

@@ -191,6 +191,25 @@ class TouchedPoints {
   double reach_ = 0;
 };
 
+/// ||u||_A of a field: no term is negative, so none cancels.
+double grid_norm(const GridOperator& A, const Vector& u) {
+  double energy = 0;
+  for (Index j = 0; j <= A.height; ++j)  // the frame has links too
+    energy += grid_kernels::energy(A.width + 1, A.stride(), A.d, A.c, u.data() + A.at(0, j));
+  return std::sqrt(energy);
+}
+
+/// z - Au, both pairs, rounded.
+Vector precise_residual(const GridOperator& A, const DoubleDoubleVector& z, const DoubleDoubleVector& u) {
+  Vector rest = A.field();
+  for (Index j = 0; j < A.height; ++j) {
+    const Index k = A.at(0, j);
+    grid_kernels::precise_residual(A.width, A.stride(), A.d, A.c, z.hi.data() + k, z.lo.data() + k,
+                                   u.hi.data() + k, u.lo.data() + k, rest.data() + k);
+  }
+  return rest;
+}
+
 /// ||c||_(A⁻¹) of fields without a factor of A.
 class GridNorm {
  public:
@@ -211,7 +230,7 @@ class GridNorm {
   }
   /// To a hundredth: what is found lacks the square of the part left.
   double rough_dual(const Vector& c) {
-    constexpr double close = 0.1;
+    constexpr double close = 1e-4;
     Vector u;
     return multigrid_.solve(c, close, u).found;
   }
@@ -238,27 +257,34 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   found.q = off_grid(grid->A, point.q.hi);
   found.lambda = Vector::Zero(problem.rows());
   found.slack = Vector::Zero(problem.rows());
-  Vector length(problem.rows());
+  DoubleDoubleVector pushed(grid->z);  // z + Uᵀlambda
+  Vector length(problem.rows()), magnitude(problem.rows());
   const double root = std::sqrt(grid->A.d);
   for (Index a = 0; a < problem.rows(); ++a) {
     const SparseRows::InnerIterator it(problem.U.sparse(), a);
     length[a] = it.value() / root;  // a lower bound, (u·v)/||v||_A with v = u, is enough
     const Index k = place(it.col());
+    const double height = it.value() * point.q.hi[k];
+    magnitude[a] = std::abs(height);
     if (grid->holds(k) || point.q.hi[k] <= grid->lower[k]) {
       const double push = -point.rest[k] / it.value();
       found.lambda[a] = grid->holds(k) ? push : std::max(0.0, push);
+      accumulate_product(it.value(), {found.lambda[a], 0}, pushed.hi[k], pushed.lo[k]);
       found.basis.push_back(a);
     } else {
-      found.slack[a] = it.value() * found.q[it.col()] - problem.s[a];
+      found.slack[a] = height - problem.s[a];
     }
   }
   found.steps = point.steps;
-  found.acceleration_norm = problem.A.norm(found.q);
+  found.acceleration_norm = grid_norm(grid->A, point.q.hi);
   GridNorm norm(grid->A, multigrid);
   found.force_norm = norm.dual(grid->z);
-  const auto dual_norm = [&](const Vector& c) { return norm.rough_dual(on_grid(grid->A, c)); };
-  found.residuals = residuals(problem, found, {.length = std::move(length), .dual_norm = dual_norm});
-  found.rounding = std::sqrt(2 * grid->A.d * off_grid(grid->A, point.q.lo).squaredNorm());
+  const double unbalanced =
+      norm.rough_dual(precise_residual(grid->A, pushed, DoubleDoubleVector(point.q.hi)));
+  found.residuals =
+      residuals(problem, found,
+                {.length = std::move(length), .magnitude = std::move(magnitude), .stationarity = unbalanced});
+  found.rounding = std::sqrt(2 * grid->A.d * point.q.lo.squaredNorm());
   found.error_bound = 2 * point.missing + found.rounding;
   found.status = found.is_within(accuracy) && decided ? Status::solved : Status::inaccurate;
   if (!decided) found.undecided = open_question::touched;

@@ -18,6 +18,16 @@ double length_at_any_scale(const ConstraintRows& U, Index a, const Vector& d) {
   return Eigen::Map<const Vector>(parts.data(), static_cast<Index>(parts.size())).stableNorm();
 }
 
+/// ||Aq - z - Uᵀlambda||_(A⁻¹).
+double unbalanced(const NearestPointProblem& problem, const DoubleDoubleVector& q, const Vector& lambda) {
+  std::vector<Index> loaded;
+  for (Index a = 0; a < lambda.size(); ++a)
+    if (lambda[a] != 0) loaded.push_back(a);
+  DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
+  for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
+  return problem.A.dual_norm(stationarity_residual(problem, q, loaded, weights));
+}
+
 }  // namespace
 
 Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>& rows) {
@@ -118,10 +128,9 @@ Residuals residuals(const NearestPointProblem& problem, const Solution& judged, 
   const DoubleDoubleVector point(q);
   // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
   const Vector magnitude = q.cwiseAbs();
-  std::vector<Index> matter, unknown, loaded;
+  std::vector<Index> matter, unknown;
   for (Index a = 0; a < m; ++a) {
     const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
-    if (lambda[a] != 0) loaded.push_back(a);
     if (rest[a] > 0 && !is_two_sided && lambda[a] == 0) {
       const double s = std::abs(problem.s[a]);
       if (known.magnitude.size() > 0 && rest[a] > near_zero * (s + known.magnitude[a])) continue;
@@ -134,10 +143,7 @@ Residuals residuals(const NearestPointProblem& problem, const Solution& judged, 
   }
   if (!unknown.empty()) length += dual_lengths(problem, unknown);
 
-  DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
-  for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
-  const Vector unbalanced = stationarity_residual(problem, point, loaded, weights);
-  const double stationarity = known.dual_norm ? known.dual_norm(unbalanced) : problem.A.dual_norm(unbalanced);
+  const double stationarity = known.stationarity ? *known.stationarity : unbalanced(problem, point, lambda);
   const double q_norm = judged.acceleration_norm, scale = std::max(q_norm, judged.force_norm);
   const double largest = m > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
@@ -13,9 +13,9 @@ Residuals residuals(const NearestPointProblem&, const Vector& q, const Vector& l
 
 /// What else is known of an answer.
 struct KnownParts {
-  Vector length = {};     ///< ||u_a||_(A⁻¹), 0 where it is not known: m; may be empty
-  Vector magnitude = {};  ///< at least Σ_i |u_ai q_i| of every row, m; may be empty
-  std::function<double(const Vector&)> dual_norm = {};  ///< ||c||_(A⁻¹) without A's factor; may be empty
+  Vector length = {};                       ///< ||u_a||_(A⁻¹), 0 where it is not known: m; may be empty
+  Vector magnitude = {};                    ///< at least Σ_i |u_ai q_i| of every row, m; may be empty
+  std::optional<double> stationarity = {};  ///< ||Aq - z - Uᵀlambda||_(A⁻¹), sums in twice the precision
 };
 /// The same for an answer with its norms and slacks, Uq - s as doubles give it; those near zero are computed
 /// again.
@@ -25,9 +25,9 @@ Residuals residuals(const NearestPointProblem&, const Solution&, KnownParts know
 /// is known of the error.
 bool violates_beyond_bound(const Solution&);
 
-/// A bound of ||q - q*||_A from the residuals of an answer whose doubles satisfy every row: with lambda >= 0 on
-/// one-sided rows, ½||q - q*||_A² <= lambda·(Uq - s) + ½||Aq - z - Uᵀlambda||²_(A⁻¹), the duality gap, whatever
-/// the rows have to do with each other; and the rounding of these terms. Infinite for other answers.
+/// A bound of ||q - q*||_A from the residuals of an answer whose doubles satisfy every row: with lambda >= 0
+/// on one-sided rows, ½||q - q*||_A² <= lambda·(Uq - s) + ½||Aq - z - Uᵀlambda||²_(A⁻¹), the duality gap,
+/// whatever the rows have to do with each other; and the rounding of these terms. Infinite for other answers.
 double bound_by_gap(const NearestPointProblem&, const Solution&);
 
 /// ||u_a||_(A⁻¹) for the rows given, 0 for the others: m.
