@@ -41,10 +41,12 @@ void Parsing::unexpected(const char* wanted) const {
   const std::string got = token_.kind == Kind::end ? "the end" : quoted(token_.text);
   const bool is_factor =
       token_.kind == Kind::name || token_.kind == Kind::number || token_.kind == Kind::open;
-  const bool is_product = is_factor && std::string_view(wanted).starts_with("an operator");
-  source_->fail(token_.offset,
-                "got " + got + "; expected " + wanted +
-                    (is_product ? ": a product is written with *, and numbers carry no units" : ""));
+  const char* hint = "";
+  if (std::string_view(wanted).starts_with("an operator")) {
+    if (is_factor) hint = ": a product is written with *, and numbers carry no units";
+    if (token_.kind == Kind::comma) hint = ": a decimal is written with a point, 0.5";
+  }
+  source_->fail(token_.offset, "got " + got + "; expected " + wanted + hint);
 }
 
 Instruction& Parsing::emit(Step step, std::size_t offset, std::uint32_t operand) {
