@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/multipliers/coupled_forces.hpp"
+#include "convex/nearest_point/multipliers/coupled_pushes.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/zero_tolerances.hpp"
 
@@ -94,7 +94,7 @@ std::vector<Index> touching_contacts(const convex::NearestPointProblem& problem,
   if (one_sided.empty()) return found;
   const convex::Vector length = convex::dual_lengths(problem, multipliers.tight);
   const auto forces =
-      convex::coupled_forces(problem, solution, multipliers.least_norm, multipliers.tight, length);
+      convex::coupled_pushes(problem, solution, multipliers.least_norm, multipliers.tight, length);
   const convex::Vector push = forces.pushes.cwiseMax(forces.others);
   double size = solution.acceleration_norm;
   std::vector<Index> weak;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/exact/elimination.hpp"
+#include "convex/infinity.hpp"
 
 namespace convex::inline exact_arithmetic {
 
@@ -76,7 +77,6 @@ Fraction dot(const ExactVector& x, const ExactVector& y) {
 
 double root_above(const Fraction& a) {
   if (a.numerator.is_zero()) return 0;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   // sqrt(a) = sqrt(a 4^shift) 2^-shift with the number under the root well inside the doubles.
   const long exponent = static_cast<long>(a.numerator.bits()) - static_cast<long>(a.denominator.bits());
   const long shift = -exponent / 2;

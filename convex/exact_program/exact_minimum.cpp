@@ -83,7 +83,7 @@ struct Pair {
 /// Stationarity of ½||x - z||_W² + f, W in H and -Wz in c already: in all variables, or in w alone.
 enum class Stationary { everywhere, in_auxiliaries };
 
-/// The unknowns are ξ and, from column[a] on, the multipliers of the rows held.
+/// The unknowns are ξ and, from column[a] on, the multipliers of the working set.
 std::vector<ExactEquation> equations_of(const ExactProgram& f, const std::vector<bool>& held,
                                         const std::vector<std::size_t>& column, Stationary where) {
   const std::size_t N = f.variables();
@@ -99,7 +99,7 @@ std::vector<ExactEquation> equations_of(const ExactProgram& f, const std::vector
   return equations;
 }
 
-/// ξ and lambda of the rows held, near the guess; rows are dropped and taken in while signs ask for it.
+/// ξ and lambda of the working set, near the guess; rows are dropped and taken in while signs ask for it.
 std::optional<Pair> repaired(const ExactProgram& f, const Vector& xi, const Vector& lambda,
                              Stationary where) {
   const std::size_t N = f.variables(), m = f.rows.size();

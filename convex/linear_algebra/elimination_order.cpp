@@ -5,8 +5,6 @@
 namespace convex::linear_algebra {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Visits the rows above the diagonal of column j in the order given.
 template <class Visit>
 void above_diagonal(const Neighbours& graph, const Elimination& order, Index j, Visit visit) {

@@ -6,8 +6,6 @@
 namespace convex::linear_algebra {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Columns are gathered into the panel of their parent when it stays this narrow, or when at most this part
 /// of its numbers is zero: a wider panel works faster than a sparser one.
 constexpr Index narrow = 8;

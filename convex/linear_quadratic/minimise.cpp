@@ -33,7 +33,7 @@ constexpr double stagnant_defect = 1e-9;
 
 /// Where z and x are 0, an error is as good as none below the first part of the terms of stationarity; the
 /// second is what corrections then aim at a small part of.
-constexpr double silence = 0x1p-70, less = 0x1p-20;
+constexpr double zero_of_terms = 0x1p-70, less = 0x1p-20;
 
 /// A round whose error estimate is above this part of its scale does not count.
 constexpr double rough = 1e-9;
@@ -209,7 +209,7 @@ class ProximalPoint {
     return soften();
   }
 
-  /// Sharpens a settled point with its rows held.
+  /// Sharpens a settled point with its working set.
   ProgramPoint finished(const Solution& solution) {
     point_.v = subgradient_of_multipliers(f_, point_.xi, point_.lambda);
     if ((soft_.any || !f_.polyhedral()) && !rough_) {
@@ -234,7 +234,7 @@ class ProximalPoint {
 
   ProgramPoint judged() {
     const double scale = z_norm_ + W_.norm(point_.xi.head(f_.n));
-    const bool exact = point_.error_bound <= std::max(accurate * scale, silence * terms_norm_);
+    const bool exact = point_.error_bound <= std::max(accurate * scale, zero_of_terms * terms_norm_);
     // Without x only the value counts, which its own duality gap judges.
     const bool balanced = point_.defect_ratio <= stagnant_defect || idle_;
     point_.status = (exact || f_.n == 0) && balanced && !rough_ ? Status::solved : Status::inaccurate;

@@ -31,7 +31,7 @@ constexpr double outside_safety = 2;
 constexpr double sign_noise = 1e-10;
 
 /// An entry no larger than its last correction is 0 to the last digit that can be told.
-void drop_silent(DoubleDoubleVector& x, const Vector& correction) {
+void drop_noise(DoubleDoubleVector& x, const Vector& correction) {
   for (Index i = 0; i < x.size(); ++i)
     if (std::abs(x.hi[i]) <= 2 * std::abs(correction[i])) x.hi[i] = x.lo[i] = 0;
 }
@@ -117,8 +117,8 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   }
   found.converged = found.converged || last == 0 || found.missing <= will_do * scale;
   if (!found.converged) return found;
-  drop_silent(xi, dxi);
-  drop_silent(lambda, dmultipliers);
+  drop_noise(xi, dxi);
+  drop_noise(lambda, dmultipliers);
   found.xi = xi.hi;
   found.v = subgradient(f, set, xi, lambda);
   found.missing += W.norm(xi.lo.head(f.n));

@@ -34,8 +34,8 @@ bool plainly_connected(const NearestPointProblem& problem) {
          dense_kernels().first_entries_differ_from_zero(U.rows(), U.cols(), U.data());
 }
 
-/// Multiplications of the dense active set: the factor of A, the whitening of the rows held, their orthogonal
-/// factor.
+/// Multiplications of the dense active set: the factor of A, the whitening of the working set, their
+/// orthogonal factor.
 double dense_flops(const NearestPointProblem& problem, Index held) {
   const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(held);
   const double m = static_cast<double>(problem.rows());
@@ -157,19 +157,19 @@ Solution solve_island(const NearestPointProblem& problem, const Accuracy& accura
                       const std::vector<Index>& guess) {
   const std::vector<Index> out = rows_out_of_reach(problem);
   if (out.empty()) return solve_all_rows(problem, accuracy, guess);
-  std::vector<Index> kept, place(static_cast<std::size_t>(problem.rows()), -1);
+  std::vector<Index> kept, place(at(problem.rows()), -1);
   for (Index a = 0; a < problem.rows(); ++a)
     if (!std::binary_search(out.begin(), out.end(), a)) {
-      place[static_cast<std::size_t>(a)] = static_cast<Index>(kept.size());
+      place[at(a)] = static_cast<Index>(kept.size());
       kept.push_back(a);
     }
   const NearestPointProblem part = with_rows(problem, kept);
   std::vector<Index> part_guess;
   for (Index a : guess)
-    if (place[static_cast<std::size_t>(a)] >= 0) part_guess.push_back(place[static_cast<std::size_t>(a)]);
+    if (place[at(a)] >= 0) part_guess.push_back(place[at(a)]);
   Solution found = solve_all_rows(part, accuracy, part_guess);
   JoinedIslands whole(problem);
-  std::vector<Index> all(static_cast<std::size_t>(problem.dimension()));
+  std::vector<Index> all(at(problem.dimension()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
   whole.add(std::move(found), all, kept);
   for (Index a : out) whole.leave_out(a, LeftOutBecause::out_of_reach);
@@ -205,15 +205,14 @@ Solution solve_islands(const NearestPointProblem& problem, const Islands& island
     if (!lists.rows[k].empty()) solve(lists.coordinates[k], lists.rows[k]);
   if (!untouched.empty() && !whole.failed()) solve(untouched, {});
   for (Index a = 0; a < problem.rows(); ++a)
-    if (islands.of_row[static_cast<std::size_t>(a)] < 0) whole.leave_out(a, LeftOutBecause::no_gradient);
+    if (islands.of_row[at(a)] < 0) whole.leave_out(a, LeftOutBecause::no_gradient);
   return whole.finish(accuracy);
 }
 
 /// Rows of zeros that no motion can satisfy: to be refused with their witness by the general method.
 bool has_contradiction(const NearestPointProblem& problem, const Islands& islands) {
   for (Index a = 0; a < problem.rows(); ++a)
-    if (islands.of_row[static_cast<std::size_t>(a)] < 0 &&
-        (problem.s[a] > 0 || (problem.s[a] < 0 && problem.is_two_sided(a))))
+    if (islands.of_row[at(a)] < 0 && (problem.s[a] > 0 || (problem.s[a] < 0 && problem.is_two_sided(a))))
       return true;
   return false;
 }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"

@@ -30,8 +30,8 @@ std::optional<DataRadii> select(const std::optional<DataRadii>& radii, const std
 }
 
 std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
-  std::vector<bool> mark(static_cast<std::size_t>(count), false);
-  for (Index a : chosen) mark[static_cast<std::size_t>(a)] = true;
+  std::vector<bool> mark(at(count), false);
+  for (Index a : chosen) mark[at(a)] = true;
   return mark;
 }
 

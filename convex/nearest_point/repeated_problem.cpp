@@ -54,7 +54,7 @@ struct RepeatedProblem::State {
   std::optional<Engine<FactoredRows>> factored;
   std::array<SetMet, most_sets> sets;
   SetMet *tried = nullptr, *last = nullptr;  ///< whose region was tried in this solve; of the solve before
-  std::vector<Index> rows_held;
+  std::vector<Index> working_set;
   Solution solution;
 
   /// The solution of the problem as it now is.
@@ -132,13 +132,13 @@ bool RepeatedProblem::State::find_in_region() {
 }
 
 void RepeatedProblem::State::note_set(GramWorkingSet& held) {
-  rows_held = solution.basis;
-  std::sort(rows_held.begin(), rows_held.end());
+  working_set = solution.basis;
+  std::sort(working_set.begin(), working_set.end());
   auto set = std::find_if(sets.begin(), sets.end(),
-                          [&](const SetMet& one) { return one.solves > 0 && one.rows == rows_held; });
+                          [&](const SetMet& one) { return one.solves > 0 && one.rows == working_set; });
   if (set == sets.end()) {
     set -= 1;
-    *set = SetMet{rows_held, 0, nullptr, {}, {}, 0};
+    *set = SetMet{working_set, 0, nullptr, {}, {}, 0};
     tried = last = nullptr;  // one of them may have been the set forgotten
   }
   if (set == tried)

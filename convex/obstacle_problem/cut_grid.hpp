@@ -8,8 +8,6 @@
 
 namespace convex::inline obstacle_problem {
 
-inline std::size_t at(Index k) { return static_cast<std::size_t>(k); }
-
 /// What a point of a grid is.
 enum class CutPoint : std::uint8_t {
   beyond,   ///< no unknown, and nothing is known there: beyond a wall

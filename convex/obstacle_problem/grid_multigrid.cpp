@@ -179,7 +179,7 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   // What they have of a solve before, but for their frames of 0, is written over.
   for (std::vector<float>* field : {&p_, &Ap_}) field->resize(static_cast<std::size_t>(size));
   x_.assign(static_cast<std::size_t>(size), 0);
-  // Beside tiny forces on the free points those that are not may be beyond all floats.
+  // Beside tiny entries on the free points those elsewhere may be beyond all floats.
   grid_kernels::take_free(size, grid.free.data(), right.data(), 1 / unit, grid.r.data());
   const double energy_unit = unit * unit / finest_.c;
   double energy = 0, previous = 0, step = 0;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "convex/infinity.hpp"
 #include "convex/invariant.hpp"
 
 namespace convex {
@@ -75,7 +76,6 @@ constexpr std::size_t few_corners = 24;
 template <class Weight>
 void through_all_pieces(const PiecewiseQuadratic& f, Index n, const double* __restrict z, Weight d,
                         double* __restrict x) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto& corners = f.corners();
   for (std::size_t k = 0; k < f.segments().size(); ++k) {
     const Segment line = f.segments()[k];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convex/double_double.hpp"
+#include "convex/infinity.hpp"
 #include "convex/prox_formulas/lambert.hpp"
 #include "convex/prox_formulas/scalar_prox.hpp"
 
@@ -124,7 +125,6 @@ Split split(double x, double y, double t) {
   if (x > 0 ? x * exp(add(quotient(y, x), {-1, 0})) <= -t : x >= 0 && y <= 0 && t <= 0)
     return {Region::polar, {}};
   if (x <= 0 && y <= 0) return {Region::back_face, {}};
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (y <= 0) {
     const DoubleDouble low = add({1, 0}, negative(quotient(y, x)));
     if (low.hi > last_exponent) return {Region::t_axis, {}};

@@ -19,9 +19,6 @@ namespace {
 /// precision.
 constexpr double rounding_of_w = 8 * unit_roundoff;
 
-/// In a block a row this close to the span of the others is looked at alone.
-constexpr double block_dependence = 1e-7;
-
 /// Changes of the working set after a refinement before the method gives up, beyond one for each row, and
 /// before it blames doubles.
 constexpr Index most_rounds = 100, patient_rounds = 4;
@@ -65,7 +62,7 @@ class DualActiveSet {
   enum class Outcome { unchanged, changed, infeasible };
 
   /// Judges what rounding may have done to w (`w_noise_`): the sums of its terms, and R⁻ᵀs, which the
-  /// condition of W amplifies; and what a refinement has seen, which has the condition of A in it.
+  /// condition of S amplifies; and what a refinement has seen, which has the condition of A in it.
   void judge_noise() {
     double terms = set_.w_free().norm() + set_.w().norm();
     for (Index k = 0; k < set_.size(); ++k) terms += std::abs(set_.lambda()[k]) * set_.factor().length(k);
@@ -83,7 +80,7 @@ class DualActiveSet {
     bool is_solved = false;  // what rounding makes of a gap is relative to the motion that the rows ask for
     for (Index p : problem_.two_sided) {
       if (set_.holds(p)) continue;
-      if (passed_[static_cast<std::size_t>(p)]) continue;
+      if (passed_[at(p)]) continue;
       set_.split(p, split_);
       if (split_.rho > 0) {
         set_.append(p, split_, 0);
@@ -123,12 +120,12 @@ class DualActiveSet {
       if (set_.one_sided(k)) set_.lambda()[k] = std::max(0.0, set_.lambda()[k]);
   }
 
-  /// One-sided rows outside W with u_a·q - s_a below `side` times what rounding may make of a zero.
+  /// One-sided rows outside S with u_a·q - s_a below `side` times what rounding may make of a zero.
   std::vector<Index> rows_below(double side) const {
     std::vector<Index> rows;
     for (Index a = 0; a < problem_.rows(); ++a) {
       const double zero = row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a]);
-      const auto i = static_cast<std::size_t>(a);
+      const auto i = at(a);
       if (slack_[a] < side * zero && !set_.holds(a) && !two_sided_[i] && !passed_[i]) rows.push_back(a);
     }
     return rows;
@@ -147,8 +144,8 @@ class DualActiveSet {
     std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
   }
 
-  /// Tries the hypothesis that all touched rows hold; true when their multipliers allow it.
-  bool start_by_touched(const std::vector<Index>& rows) {
+  /// Tries the hypothesis that all degenerate rows hold; true when their multipliers allow it.
+  bool start_by_degenerate_rows(const std::vector<Index>& rows) {
     Matrix whitened = whitened_rows(problem_, rows);
     set_.append_block(rows, whitened, block_dependence);
     set_.solve();
@@ -173,11 +170,11 @@ class DualActiveSet {
       if (violated == 0) return;
       rows = rows_below(1);
       if (rows.size() > violated && static_cast<Index>(rows.size()) <= set_.factor().capacity() &&
-          start_by_touched(rows))
+          start_by_degenerate_rows(rows))
         return;
       rows.clear();
     }
-    std::erase_if(rows, [&](Index a) { return two_sided_[static_cast<std::size_t>(a)]; });
+    std::erase_if(rows, [&](Index a) { return two_sided_[at(a)]; });
     Matrix whitened = whitened_rows(problem_, rows);
     set_.append_block(rows, whitened, block_dependence);
     steps_ += static_cast<Index>(rows.size());
@@ -215,14 +212,14 @@ class DualActiveSet {
       const bool dependent = !(split_.rho > 0);
       if (dependent) {
         const double gap = contradiction(set_, p, split_);
-        // A row that is not quite a combination of W takes the place of one that can give way: where nothing
+        // A row that is not quite a combination of S takes the place of one that can give way: where nothing
         // else stops them that is a step of rounding, else the next rows tell.
         const bool takes_place = w_noise == 0 && !changed && !is_exact_combination(set_, split_);
         if (gap > 0 || !takes_place || blocking_row(set_, split_).place < 0) violation = gap;
         if (!(violation > 0)) {
-          // Consistent with W to rounding: it holds as well as W does.
-          passed_[static_cast<std::size_t>(p)] = true;
-          flat_wedge_ = flat_wedge_ || is_flat_wedge(set_, split_);
+          // Consistent with S to rounding: it holds as well as S does.
+          passed_[at(p)] = true;
+          flat_vertex_ = flat_vertex_ || is_flat_vertex(set_, split_);
           left_outside_ += split_.rest / split_.length;
           return changed ? finish_change() : Outcome::unchanged;
         }
@@ -260,7 +257,7 @@ class DualActiveSet {
   Outcome finish_change() {
     drop_until_dual_feasible();
     std::fill(passed_.begin(), passed_.end(), false);
-    flat_wedge_ = false;
+    flat_vertex_ = false;
     left_outside_ = 0;
     return Outcome::changed;
   }
@@ -275,7 +272,7 @@ class DualActiveSet {
     return true;
   }
 
-  /// Lets rows with multipliers that are 0 for all that W's condition tells go, once: their slacks say more.
+  /// Lets rows with multipliers that are 0 for all that S's condition tells go, once: their slacks say more.
   bool let_weak_go(const RefinedPoint& refined) {
     if (problem_.radii || std::exchange(weak_went_, true)) return false;
     const Index before = set_.size();
@@ -290,10 +287,10 @@ class DualActiveSet {
     const double left = refined.remaining();
     std::vector<Index> rows;
     for (Index a = 0; a < problem_.rows(); ++a)
-      if (slack_[a] < 0 && !two_sided_[static_cast<std::size_t>(a)]) rows.push_back(a);
+      if (slack_[a] < 0 && !two_sided_[at(a)]) rows.push_back(a);
     sort_by_violation(rows);
     for (Index p : rows) {
-      if (passed_[static_cast<std::size_t>(p)]) continue;
+      if (passed_[at(p)]) continue;
       set_.split(p, split_);
       if (split_.rho > 0 && -slack_[p] <= 2 * left * split_.length) continue;
       set_.lambda().head(set_.size()) = refined.lambda.hi;
@@ -307,8 +304,8 @@ class DualActiveSet {
     if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
     const std::string_view open =
         finished ? decide_degenerate_rows(set_, refined.q, row_scale_, slack_) : open_question::conditioning;
-    const double outside = open.empty() ? 0 : finished && !flat_wedge_ ? left_outside_ : infinity;
-    Solution solution = judged_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
+    const double outside = open.empty() ? 0 : finished && !flat_vertex_ ? left_outside_ : infinity;
+    Solution solution = certified_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
     solution.undecided = open;
     return solution;
   }
@@ -320,9 +317,9 @@ class DualActiveSet {
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
   Split split_;
-  bool flat_wedge_ = false, weak_went_ = false;
+  bool flat_vertex_ = false, weak_went_ = false;
   Index steps_ = 0;
-  // left_outside_: parts of the rows passed over that W does not span
+  // left_outside_: parts of the rows passed over that S does not span
   double w_noise_ = 0, seen_noise_ = 0, row_condition_ = 1, left_outside_ = 0;
 };
 

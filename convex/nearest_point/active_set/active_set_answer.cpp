@@ -42,8 +42,9 @@ double farthest_beyond(const WorkingSet& set, const Vector& slack) {
 
 }  // namespace
 
-Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
-                       const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps) {
+Solution certified_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
+                          const Vector& row_scale, double left_outside, const Accuracy& accuracy,
+                          Index steps) {
   const NearestPointProblem& problem = set.problem();
   Solution solution;
   solution.method = method;
@@ -52,7 +53,7 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
   solution.lambda = Vector::Zero(problem.rows());
   Vector length = Vector::Zero(problem.rows());
   for (Index k = 0; k < set.size(); ++k) {
-    const Index a = set.rows()[static_cast<std::size_t>(k)];
+    const Index a = set.rows()[at(k)];
     solution.lambda[a] = set.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
     length[a] = set.factor().length(k);
   }
@@ -73,7 +74,7 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
     if (set.one_sided(k)) taken_for_zero += std::max(0.0, -multiplier);
   }
   solution.error_bound =
-      2 * refined.remaining() + refined.silenced + taken_for_zero + solution.rounding +
+      2 * refined.remaining() + refined.dropped + taken_for_zero + solution.rounding +
       farthest_beyond(set, slack) * set.factor().inverse_norm() +
       (left_outside > 0 ? left_outside * std::max(multipliers, std::numeric_limits<double>::min()) : 0);
   if (!problem.radii && !problem.U.is_sparse() && violates_beyond_bound(solution))

@@ -6,13 +6,14 @@
 namespace convex::inline dual_active_set {
 
 /// The answer of the active-set method from its refined point, with residuals, status and an error bound:
-/// what refinement left, the rounding of q to doubles, and what rows that contradict W by rounding leave
+/// what refinement left, the rounding of q to doubles, and what rows that contradict S by rounding leave
 /// undecided. slack: Uq - s over all rows; row_scale: ||u_a||_(D⁻¹) of all rows, D the diagonal of A;
-/// left_outside: Σ |d_p|/|v_p| over rows passed over as dependent, d_p being what W does not span of them, by
-/// which a multiplier on them would act otherwise than on W; infinite when the method did not end by its own
+/// left_outside: Σ |d_p|/|v_p| over rows passed over as dependent, d_p being what S does not span of them, by
+/// which a multiplier on them would act otherwise than on S; infinite when the method did not end by its own
 /// test.
-Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
-                       const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps);
+Solution certified_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
+                          const Vector& row_scale, double left_outside, const Accuracy& accuracy,
+                          Index steps);
 
 /// The answer when rows contradict each other; `infeasible` only if the weights prove it. scale:
 /// max(||q||_A, ||z||_(A⁻¹)). accuracy.limit = 0: without fractions.

@@ -6,9 +6,9 @@
 
 namespace convex::inline dual_active_set {
 
-/// Decides without rounding whether the point q of the rows W keeps the rows outside W that it touches as far
+/// Decides without rounding whether the point q of the rows S keeps the rows outside S that it touches as far
 /// as doubles tell: those with slack <= 0, and two-sided ones. Either q itself, in doubles, is the point and
-/// keeps them, or each of them is a sum of rows of W and asks for no more than they do. slack: m; where all
+/// keeps them, or each of them is a sum of rows of S and asks for no more than they do. slack: m; where all
 /// are kept, theirs becomes 0 and nothing is returned; else what stays open (`open_question`). Where the data
 /// have radii, every such row stays open.
 std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVector& q, const Vector& row_scale,

@@ -48,8 +48,7 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
     for (Index k = 0; k < set.size(); ++k) {
       if (!(std::abs(split.coefficients[k]) * set.factor().length(k) > noise)) continue;
       told.coefficients[k] = split.coefficients[k];
-      told.turn +=
-          std::abs(split.coefficients[k]) * radius_of(problem, set.rows()[static_cast<std::size_t>(k)]);
+      told.turn += std::abs(split.coefficients[k]) * radius_of(problem, set.rows()[at(k)]);
     }
   }
   found.basic = set.rows();
@@ -72,28 +71,28 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
 /// The groups of rows that nonzero entries of T tie together, each with its part of T.
 void split_by_ties(const Dependence& whole, std::vector<Dependence>& groups) {
   const Index k = whole.T.rows(), d = whole.T.cols();
-  std::vector<Index> group_of_row(static_cast<std::size_t>(k), -1);
-  std::vector<bool> seen(static_cast<std::size_t>(d), false);
+  std::vector<Index> group_of_row(at(k), -1);
+  std::vector<bool> seen(at(d), false);
   for (Index first = 0; first < d; ++first) {
-    if (seen[static_cast<std::size_t>(first)]) continue;
+    if (seen[at(first)]) continue;
     std::vector<Index> rows, columns{first};
-    seen[static_cast<std::size_t>(first)] = true;
+    seen[at(first)] = true;
     for (std::size_t next = 0; next < columns.size(); ++next)
       for (Index r = 0; r < k; ++r) {
-        if (whole.T(r, columns[next]) == 0 || group_of_row[static_cast<std::size_t>(r)] >= 0) continue;
-        group_of_row[static_cast<std::size_t>(r)] = first;
+        if (whole.T(r, columns[next]) == 0 || group_of_row[at(r)] >= 0) continue;
+        group_of_row[at(r)] = first;
         rows.push_back(r);
         for (Index p = 0; p < d; ++p) {
-          if (whole.T(r, p) == 0 || seen[static_cast<std::size_t>(p)]) continue;
-          seen[static_cast<std::size_t>(p)] = true;
+          if (whole.T(r, p) == 0 || seen[at(p)]) continue;
+          seen[at(p)] = true;
           columns.push_back(p);
         }
       }
     std::sort(rows.begin(), rows.end());
     std::sort(columns.begin(), columns.end());
     Dependence group;
-    for (Index r : rows) group.basic.push_back(whole.basic[static_cast<std::size_t>(r)]);
-    for (Index p : columns) group.dependent.push_back(whole.dependent[static_cast<std::size_t>(p)]);
+    for (Index r : rows) group.basic.push_back(whole.basic[at(r)]);
+    for (Index p : columns) group.dependent.push_back(whole.dependent[at(p)]);
     group.T = whole.T(rows, columns);
     group.inverse_norm = whole.inverse_norm;
     groups.push_back(std::move(group));
@@ -101,7 +100,7 @@ void split_by_ties(const Dependence& whole, std::vector<Dependence>& groups) {
 }
 
 void rename(std::vector<Index>& rows, const std::vector<Index>& names) {
-  for (Index& row : rows) row = names[static_cast<std::size_t>(row)];
+  for (Index& row : rows) row = names[at(row)];
 }
 
 }  // namespace
@@ -122,12 +121,12 @@ std::optional<std::vector<Dependence>> dependences(const NearestPointProblem& pr
       Metric::diagonal(problem.A.diagonal()), problem.z, problem.U.select(tight), Vector::Zero(k), {}};
   const IslandLists islands = list_islands(find_islands(held));
   const std::vector<bool> in_basis = marked(problem.rows(), basis);
-  std::vector<Index> place(static_cast<std::size_t>(problem.dimension()));
+  std::vector<Index> place(at(problem.dimension()));
   for (std::size_t i = 0; i < islands.rows.size(); ++i) {
     std::vector<Index> names, own_basis;
     for (std::size_t r = 0; r < islands.rows[i].size(); ++r) {
-      names.push_back(tight[static_cast<std::size_t>(islands.rows[i][r])]);
-      if (in_basis[static_cast<std::size_t>(names.back())]) own_basis.push_back(static_cast<Index>(r));
+      names.push_back(tight[at(islands.rows[i][r])]);
+      if (in_basis[at(names.back())]) own_basis.push_back(static_cast<Index>(r));
     }
     if (own_basis.size() == names.size()) continue;
     if (!is_small_enough(static_cast<Index>(islands.coordinates[i].size()), names.size()))

@@ -28,7 +28,7 @@ namespace {
 /// s_p - Σ r_k s_k, the sum of the sizes of its terms, what of it the rounding of s can explain, the sum of
 /// the sizes of terms whose r_k is noise, and how far the radii of the rows leave open that they cancel.
 struct Gap {
-  double value = 0, magnitude = 0, explained = 0, silenced = 0, turn = 0;
+  double value = 0, magnitude = 0, explained = 0, dropped = 0, turn = 0;
 };
 
 Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
@@ -37,15 +37,15 @@ Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
   DoubleDouble sum{s[p], 0};
   Gap gap{0, std::abs(s[p]), radii ? radii->s[p] : 0, 0, radii ? radii->row[p] : 0};
   for (Index k = 0; k < set.size(); ++k) {
-    const DoubleDouble term = two_product(-split.coefficients[k], s[set.rows()[static_cast<std::size_t>(k)]]);
+    const DoubleDouble term = two_product(-split.coefficients[k], s[set.rows()[at(k)]]);
     if (is_noise(set, k, split)) {
-      gap.silenced += std::abs(term.hi);
+      gap.dropped += std::abs(term.hi);
       continue;
     }
     sum = add(sum, term);
     gap.magnitude += std::abs(term.hi);
     if (!radii) continue;
-    const Index row = set.rows()[static_cast<std::size_t>(k)];
+    const Index row = set.rows()[at(k)];
     gap.explained += std::abs(split.coefficients[k]) * radii->s[row];
     gap.turn += std::abs(split.coefficients[k]) * radii->row[row];
   }
@@ -59,7 +59,7 @@ Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
 double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
   const Gap gap = gap_of(set, p, split);
   const double threshold =
-      gap.explained + gap.silenced + (2 * split.direction.norm() + farthest_motion * gap.turn) * set.scale();
+      gap.explained + gap.dropped + (2 * split.direction.norm() + farthest_motion * gap.turn) * set.scale();
   return std::abs(gap.value) > threshold ? gap.value : 0;
 }
 
@@ -83,7 +83,7 @@ bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split)
   return true;
 }
 
-bool is_flat_wedge(const WorkingSet& set, const WorkingSet::Split& split) {
+bool is_flat_vertex(const WorkingSet& set, const WorkingSet::Split& split) {
   if (split.within_radii || is_exact_combination(set, split)) return false;
   bool can_give_way = false;
   for (Index k = 0; k < set.size(); ++k) {
@@ -98,8 +98,7 @@ Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::S
   Vector weights = Vector::Zero(set.problem().rows());
   weights[p] = sign;
   for (Index k = 0; k < set.size(); ++k)
-    if (!is_noise(set, k, split))
-      weights[set.rows()[static_cast<std::size_t>(k)]] = -sign * split.coefficients[k];
+    if (!is_noise(set, k, split)) weights[set.rows()[at(k)]] = -sign * split.coefficients[k];
   return weights;
 }
 

@@ -5,13 +5,10 @@
 
 namespace convex::inline dual_active_set {
 
-/// What twice the working precision leaves of a row that depends on the others exactly, of its magnitude.
-inline constexpr double exact_dependence = 0x1p-90;
-
 /// Whether the coefficient r_k of a split, measured by its part r_k v_k of v_p, is rounding about zero.
 bool is_noise(const WorkingSet& set, Index k, const WorkingSet::Split& split);
 
-/// The row of W, by its place, whose multiplier comes down to 0 first, and by how much the multiplier of the
+/// The row of S, by its place, whose multiplier comes down to 0 first, and by how much the multiplier of the
 /// row split changes until then; -1 for none.
 struct BlockingRow {
   Index place = -1;
@@ -22,18 +19,18 @@ struct BlockingRow {
 BlockingRow blocking_row(const WorkingSet& set, const WorkingSet::Split& split, double sign = 1,
                          double most = infinity);
 
-/// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding and
+/// For a row p that depends on S: s_p - Σ r_k s_k, by which it contradicts S, when that exceeds rounding and
 /// what some motion up to `farthest_motion` times the scale makes of the radii; else 0.
 double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& split);
 
-/// Whether a row is a combination of W with coefficients that are 0 or beyond rounding, nothing left over.
+/// Whether a row is a combination of S with coefficients that are 0 or beyond rounding, nothing left over.
 bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split);
 
-/// Whether a row counts as dependent on W by rounding alone and is opposite to one-sided rows of W, or to
-/// nothing that could give way to it: as the numbers stand they leave a wedge, however flat, and its edge may
-/// be far from where W holds them. Rows that are a combination of W within their radii leave none: which
-/// numbers are meant is not known.
-bool is_flat_wedge(const WorkingSet& set, const WorkingSet::Split& split);
+/// Whether a row counts as dependent on S by rounding alone and is opposite to one-sided rows of S, or to
+/// nothing that could give way to it: as the numbers stand they meet in a vertex, however flat, that may be
+/// far from where S holds them. Rows that are a combination of S within their radii leave none: which numbers
+/// are meant is not known.
+bool is_flat_vertex(const WorkingSet& set, const WorkingSet::Split& split);
 
 /// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
 Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::Split& split, double sign);

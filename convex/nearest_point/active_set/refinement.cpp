@@ -8,25 +8,20 @@
 namespace convex::inline dual_active_set {
 namespace {
 
-/// Beyond this the corrections do not converge fast enough to be trusted.
-constexpr double slowest_contraction = 0.25;
-
-constexpr int most_corrections = 40;
-
 /// When the first correction is this small a part of what it corrects, the second would be below `enough` by
 /// far: the first is then the last.
 constexpr double certain_contraction = 0x1p-44;
 
 /// An entry no larger than what may be missing in it is rounding noise about zero.
 template <class Noise, class Weight>
-double silence_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {
-  double silenced = 0;
+double drop_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {
+  double dropped = 0;
   for (Index i = 0; i < x.size(); ++i) {
     if (!(std::abs(x.hi[i]) <= noise(i))) continue;
-    silenced += weight(i) * x.hi[i] * x.hi[i];
+    dropped += weight(i) * x.hi[i] * x.hi[i];
     x.hi[i] = x.lo[i] = 0;
   }
-  return silenced;
+  return dropped;
 }
 
 }  // namespace
@@ -41,22 +36,21 @@ RefinedPoint refine(const WorkingSet& set) {
   const double of_residuals = 4 * unit_roundoff * unit_roundoff * of_A * (1 + of_rows) * scale;
   const double of_pull = pull_rounding(of_A, 1);
   const double expected = expected_contraction(of_A, of_rows * of_rows, false);
-  const double usual = std::min(slowest_contraction / 2, usual_contraction(of_A, of_rows * of_rows));
+  const double usual = std::min(trusted_contraction / 2, usual_contraction(of_A, of_rows * of_rows));
   double previous = scale;  // the first solve is the correction of nothing
   double pull = std::numeric_limits<double>::infinity();
   Vector dw, dlambda, r2(set.size());
   Vector dq, step;
-  const auto silence_q = [&](auto noise) {
-    const double silenced = silence_noise(point.q, noise, [&](Index i) { return problem.A.diagonal()[i]; });
-    point.silenced = std::sqrt(static_cast<double>(problem.dimension()) * silenced);
+  const auto drop_noise_of_q = [&](auto noise) {
+    const double dropped = drop_noise(point.q, noise, [&](Index i) { return problem.A.diagonal()[i]; });
+    point.dropped = std::sqrt(static_cast<double>(problem.dimension()) * dropped);
   };
-  const auto silence_lambda = [&](auto noise) {
-    silence_noise(point.lambda, noise, [](Index) { return 0; });
+  const auto drop_noise_of_lambda = [&](auto noise) {
+    drop_noise(point.lambda, noise, [](Index) { return 0; });
   };
-  for (int k = 0; k < most_corrections; ++k) {
+  for (int k = 0; k < most_refinements; ++k) {
     const Vector r1 = stationarity_residual(problem, point.q, set.rows(), point.lambda);
-    for (Index j = 0; j < set.size(); ++j)
-      r2[j] = -slack(problem, set.rows()[static_cast<std::size_t>(j)], point.q).value();
+    for (Index j = 0; j < set.size(); ++j) r2[j] = -slack(problem, set.rows()[at(j)], point.q).value();
     set.correct(problem.A.whiten(r1), r2, dw, dlambda);
     point.last = dw.norm();
     const double previous_pull = std::exchange(pull, 0);
@@ -68,21 +62,21 @@ RefinedPoint refine(const WorkingSet& set) {
     const double floor = at_rounding * scale;
     const double seen = (k == 0 ? point.last > 0 : point.last > floor) ? point.last / previous : 0;
     if (k == 0)
-      point.contraction = std::max(seen, std::min(slowest_contraction / 2, expected));
+      point.contraction = std::max(seen, std::min(trusted_contraction / 2, expected));
     else  // the second correction shows what the first could only be expected to leave
       point.contraction = std::max({seen, k == 1 ? 0 : point.contraction, usual});
     dq = problem.A.unwhiten(dw);
     step = dlambda;
-    if (!(point.contraction < slowest_contraction)) break;
+    if (!(point.contraction < trusted_contraction)) break;
     point.q.add(dq);
     point.lambda.add(step);
     const bool is_held = of_pull * pull <= enough * scale;
     if (k == 0 && point.contraction <= certain_contraction && point.last > 0 && is_held) {
       const double missing = 4 * point.remaining() * problem.A.factor_condition();
-      silence_q([&](Index i) {
+      drop_noise_of_q([&](Index i) {
         return std::max(missing / std::sqrt(problem.A.diagonal()[i]), cancelled * std::abs(dq[i]));
       });
-      silence_lambda([&](Index k_th) {
+      drop_noise_of_lambda([&](Index k_th) {
         return std::max(missing * of_rows / set.factor().length(k_th), cancelled * std::abs(step[k_th]));
       });
       return point;
@@ -94,10 +88,10 @@ RefinedPoint refine(const WorkingSet& set) {
     if (k > 0 && is_told && (at_the_end || point.remaining() <= enough * scale)) break;
     previous = point.last;
   }
-  if (point.contraction < slowest_contraction) {
+  if (point.contraction < trusted_contraction) {
     // The last correction of an entry is more than what is missing in it.
-    silence_q([&](Index i) { return 2 * std::abs(dq[i]); });
-    silence_lambda([&](Index k) { return 2 * std::abs(step[k]); });
+    drop_noise_of_q([&](Index i) { return 2 * std::abs(dq[i]); });
+    drop_noise_of_lambda([&](Index k) { return 2 * std::abs(step[k]); });
   }
   return point;
 }

@@ -14,10 +14,14 @@ inline constexpr double enough = 0x1p-68;
 /// A enlarges: it does not shrink any more.
 inline constexpr double at_rounding = 0x1p-80;
 
+/// Corrections that shrink no faster are not to be trusted; and there are at most so many.
+inline constexpr double trusted_contraction = 0.25;
+inline constexpr int most_refinements = 40;
+
 /// By what corrections shrink what is missing, estimated from conditions: A + E is factored instead of A,
 /// which leaves u times the condition of A, that of its factor squared; the whitened rows are rounded with
-/// that factor; and the rows held are factored with the condition of their Gram matrix where that is what is
-/// factored, else with its root. gram_condition: of rows divided by their lengths.
+/// that factor; and the rows of the working set are factored with the condition of their Gram matrix where
+/// that is what is factored, else with its root. gram_condition: of rows divided by their lengths.
 inline double expected_contraction(double factor_condition, double gram_condition, bool by_gram_matrix) {
   const double rows = std::sqrt(gram_condition);
   return unit_roundoff *
@@ -42,10 +46,10 @@ inline double pull_rounding(double factor_condition, double growth) {
 /// An entry that the correction takes to this part of it is 0 as far as that tells.
 inline constexpr double cancelled = 0x1p-24;
 
-/// An estimate of ||q - q_W||_A for a point found and judged in doubles. stationarity: ||Aq - z -
-/// Uᵀlambda||_(A⁻¹) and held: |slacks of the k rows held| times the norm of the inverse of their factor, as
-/// measured; scale: the size of what was summed, times the condition; each of n + k terms is rounded, with
-/// room to spare.
+/// An estimate of ||q - q_S||_A for a point found and judged in doubles. stationarity: ||Aq - z -
+/// Uᵀlambda||_(A⁻¹) and held: |slacks of the k rows of the working set| times the norm of the inverse of
+/// their factor, as measured; scale: the size of what was summed, times the condition; each of n + k terms is
+/// rounded, with room to spare.
 inline double bound_of_doubles(Index n, Index k, double stationarity, double held, double scale) {
   return stationarity + held + 8 * static_cast<double>(n + k) * unit_roundoff * scale;
 }
@@ -53,28 +57,28 @@ inline double bound_of_doubles(Index n, Index k, double stationarity, double hel
 /// The point and multipliers of a working set, to twice the working precision where its conditioning allows.
 struct RefinedPoint {
   DoubleDoubleVector q;       ///< n
-  DoubleDoubleVector lambda;  ///< over W
+  DoubleDoubleVector lambda;  ///< over S
   double first = 0;           ///< ||dq||_A of the first correction: the rounding of the plain solve
   double last = 0;            ///< ||dq||_A of the last correction
   double contraction =
       0;  ///< by what each correction is smaller than the one before: as seen, and at least condition times u
   double floor =
       0;  ///< what the rounding of residuals in twice the precision leaves, enlarged by the condition
-  double silenced = 0;  ///< at least ||·||_A of what was taken for rounding noise about zero
-  /// An estimate of what is still missing, ||q - q_W||_A, q_W the exact point of the working set, but for
-  /// what was silenced.
+  double dropped = 0;  ///< at least ||·||_A of what was taken for rounding noise about zero
+  /// An estimate of what is still missing, ||q - q_S||_A, q_S the exact point of the working set, but for
+  /// what was dropped.
   double remaining() const {
     return contraction < 1 ? last * contraction / (1 - contraction) + floor
                            : std::numeric_limits<double>::infinity();
   }
 };
 
-/// Iterative refinement against the original KKT system A q - U_Wᵀ lambda = z, U_W q = s_W with residuals in
-/// twice the working precision (Wilkinson 1963; Björck 1967 for the augmented system); the factor of W is the
-/// preconditioner, so the error shrinks by about (condition of W) u each time.
+/// Iterative refinement against the original KKT system A q - U_Sᵀ lambda = z, U_S q = s_S with residuals in
+/// twice the working precision (Wilkinson 1963; Björck 1967 for the augmented system); the factor of S is the
+/// preconditioner, so the error shrinks by about (condition of S) u each time.
 RefinedPoint refine(const WorkingSet& set);
 
-/// The place in W of the one-sided row whose refined multiplier, times its length, is most negative, beyond
+/// The place in S of the one-sided row whose refined multiplier, times its length, is most negative, beyond
 /// what may be missing in it; -1 for none.
 Index most_negative(const WorkingSet& set, const RefinedPoint& refined);
 

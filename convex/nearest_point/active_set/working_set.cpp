@@ -7,18 +7,21 @@
 namespace convex::inline dual_active_set {
 namespace {
 
-/// Below this part of |v_p| outside the span of W, doubles alone no longer tell how much is left, and the
+/// Below this part of |v_p| outside the span of S, doubles alone no longer tell how much is left, and the
 /// split is sharpened in twice the working precision.
 constexpr double doubtful_part = 1e-5;
 
-/// Where the data have no radii, the way goes on as if a row were dependent on W when what is left of it is
+/// Where the data have no radii, the way goes on as if a row were dependent on S when what is left of it is
 /// at most so many roundings of what it is made of; the end decides it without rounding.
 constexpr double dependence_roundings = 8;
 
-/// What twice the working precision leaves of a row that depends on the others, of its magnitude.
-constexpr double smallest_rest = 0x1p-90;
-
 }  // namespace
+
+bool is_dense_size(const NearestPointProblem& problem) {
+  constexpr double most_dense_numbers = 4e6;
+  const double n = static_cast<double>(problem.dimension()), m = static_cast<double>(problem.rows());
+  return n * std::min(n, m) <= most_dense_numbers;
+}
 
 Matrix whitened_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   Matrix block(problem.dimension(), static_cast<Index>(rows.size()));
@@ -30,11 +33,11 @@ Matrix whitened_rows(const NearestPointProblem& problem, const std::vector<Index
 WorkingSet::WorkingSet(const NearestPointProblem& problem)
     : problem_(problem),
       factor_(problem.dimension(), std::min(problem.dimension(), problem.rows())),
-      position_(static_cast<std::size_t>(problem.rows()), -1),
+      position_(at(problem.rows()), -1),
       w_free_(problem.A.whiten(problem.z)),
       w_(w_free_),
       lambda_(factor_.capacity()) {
-  rows_.reserve(static_cast<std::size_t>(factor_.capacity()));
+  rows_.reserve(at(factor_.capacity()));
 }
 
 Vector WorkingSet::point() const { return problem_.A.unwhiten(w_); }
@@ -58,14 +61,13 @@ void WorkingSet::split(Index p, Split& into) {
 
 void WorkingSet::sharpen(Index p, Split& split) {
   DoubleDoubleVector r(Vector(split.coefficients));
-  // Each pass multiplies the error of r by the condition of W times u: until nothing is left of it in twice
-  // the precision, or it shrinks no more, as W is singular to rounding.
+  // Each pass multiplies the error of r by the condition of S times u: until nothing is left of it in twice
+  // the precision, or it shrinks no more, as S is singular to rounding.
   constexpr int least_passes = 2, most_passes = 16;
   double moved = infinity;
   for (int pass = 0; pass < most_passes; ++pass) {
     DoubleDoubleVector rest(problem_.U.row(p));
-    for (Index k = 0; k < size(); ++k)
-      problem_.U.add_multiple(rows_[static_cast<std::size_t>(k)], {-r.hi[k], -r.lo[k]}, rest);
+    for (Index k = 0; k < size(); ++k) problem_.U.add_multiple(rows_[at(k)], {-r.hi[k], -r.lo[k]}, rest);
     split.direction = problem_.A.whiten(rest.value());
     Vector correction(factor_.capacity());
     split.rho = factor_.split(split.direction, correction);
@@ -77,7 +79,7 @@ void WorkingSet::sharpen(Index p, Split& split) {
       moves = std::max(moves, std::abs(step[k]) * factor_.length(k));
       size_of_r = std::max(size_of_r, std::abs(r.hi[k]) * factor_.length(k));
     }
-    if (pass + 1 >= least_passes && (moves <= smallest_rest * size_of_r || !(moves < moved / 2))) break;
+    if (pass + 1 >= least_passes && (moves <= exact_dependence * size_of_r || !(moves < moved / 2))) break;
     moved = moves;
   }
   split.coefficients = r.hi;
@@ -86,16 +88,15 @@ void WorkingSet::sharpen(Index p, Split& split) {
   double unsure = dependence_roundings * unit_roundoff * split.magnitude;
   if (const std::optional<DataRadii>& radii = problem_.radii) {
     unsure = radii->row[p];
-    for (Index k = 0; k < size(); ++k)
-      unsure += std::abs(r.hi[k]) * radii->row[rows_[static_cast<std::size_t>(k)]];
+    for (Index k = 0; k < size(); ++k) unsure += std::abs(r.hi[k]) * radii->row[rows_[at(k)]];
     split.within_radii = split.rho <= unsure && unsure > 0;
-    unsure = std::max(unsure, smallest_rest * split.magnitude);
+    unsure = std::max(unsure, exact_dependence * split.magnitude);
   }
   if (split.rho <= unsure) split.rho = 0;
 }
 
 void WorkingSet::take(Index p) {
-  position_[static_cast<std::size_t>(p)] = static_cast<Index>(rows_.size());
+  position_[at(p)] = static_cast<Index>(rows_.size());
   rows_.push_back(p);
 }
 
@@ -107,21 +108,21 @@ void WorkingSet::append(Index p, const Split& split, double multiplier) {
 
 void WorkingSet::remove(Index k) {
   factor_.remove(k);
-  position_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])] = -1;
+  position_[at(rows_[static_cast<std::size_t>(k)])] = -1;
   rows_.erase(rows_.begin() + k);
   for (Index l = k; l < size(); ++l) {
     lambda_[l] = lambda_[l + 1];
-    position_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(l)])] = l;
+    position_[at(rows_[static_cast<std::size_t>(l)])] = l;
   }
 }
 
 void WorkingSet::append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened, double threshold) {
-  factor_.append_block(whitened, threshold, [&](Index k) { take(rows[static_cast<std::size_t>(k)]); });
+  factor_.append_block(whitened, threshold, [&](Index k) { take(rows[at(k)]); });
 }
 
 Vector WorkingSet::shortest_motion() const {
   Vector y(size());
-  for (Index k = 0; k < size(); ++k) y[k] = problem_.s[rows_[static_cast<std::size_t>(k)]];
+  for (Index k = 0; k < size(); ++k) y[k] = problem_.s[rows_[at(k)]];
   factor_.solve_lower(y);
   return y;
 }

@@ -5,14 +5,25 @@
 #include "convex/double_double.hpp"
 #include "convex/linear_algebra/orthogonal_factor.hpp"
 #include "convex/nearest_point/problem.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex::inline dual_active_set {
+
+/// Whether factors of n·min(n, m) numbers are affordable. Beyond, methods and crossover go by sparse ones.
+bool is_dense_size(const NearestPointProblem&);
+
+/// What twice the working precision leaves of a row that depends on the others exactly, of its magnitude.
+inline constexpr double exact_dependence = zero_of_long_sums;
+
+/// In a block (`append_block`) a row this close to the span of the others is looked at alone.
+inline constexpr double block_dependence = 1e-7;
 
 /// F⁻¹u_a of the rows given, as columns.
 Matrix whitened_rows(const NearestPointProblem&, const std::vector<Index>& rows);
 
-/// The rows held with equality, W, and the point that they define, in whitened terms: v_a = F⁻¹u_a, w = Fᵀq,
-/// w_free = F⁻¹z; w = w_free + Σ_W lambda_a v_a with v_a·w = s_a on W. Two-sided rows stand first and stay.
+/// The working set S, rows held with equality, and the point that they define, in whitened terms: v_a =
+/// F⁻¹u_a, w = Fᵀq, w_free = F⁻¹z; w = w_free + Σ_S lambda_a v_a with v_a·w = s_a on S. Two-sided rows stand
+/// first and stay.
 class WorkingSet {
  public:
   explicit WorkingSet(const NearestPointProblem&);
@@ -20,9 +31,9 @@ class WorkingSet {
   const NearestPointProblem& problem() const { return problem_; }
   Index size() const { return factor_.size(); }
   const std::vector<Index>& rows() const { return rows_; }
-  bool holds(Index a) const { return position_[static_cast<std::size_t>(a)] >= 0; }
+  bool holds(Index a) const { return position_[at(a)] >= 0; }
   bool one_sided(Index k) const { return k >= fixed_; }
-  /// Declares the rows held so far two-sided: they are never dropped.
+  /// Declares the working set so far two-sided: its rows are never dropped.
   void fix() { fixed_ = size(); }
 
   const linear_algebra::OrthogonalFactor& factor() const { return factor_; }
@@ -33,11 +44,11 @@ class WorkingSet {
   const Vector& lambda() const { return lambda_; }
   /// q = F⁻ᵀw.
   Vector point() const;
-  /// max(||q||_A, ||z||_(A⁻¹)): what errors are relative to; q also that of the shortest motion that holds W,
+  /// max(||q||_A, ||z||_(A⁻¹)): what errors are relative to; q also that of the shortest motion that holds S,
   /// which may have rows that the point has not been solved for.
   double scale() const;
 
-  /// u_p = Σ_W r_k u_k + (what W does not span): `direction` is the whitened rest d, `coefficients` is r (k
+  /// u_p = Σ_S r_k u_k + (what S does not span): `direction` is the whitened rest d, `coefficients` is r (k
   /// entries), `c` = Qᵀv. When the row is nearly dependent, found with residuals of the *original* rows in
   /// twice the working precision, so that d keeps its digits whatever the angle.
   struct Split {
@@ -55,13 +66,13 @@ class WorkingSet {
   /// Takes in those of the rows, given with their F⁻¹u_a as columns (overwritten), that are independent of
   /// the others to the relative threshold; w and the multipliers are not touched.
   void append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened, double threshold);
-  /// Sets w and lambda to the point where every row of W holds with equality.
+  /// Sets w and lambda to the point where every row of S holds with equality.
   void solve();
-  /// Solves A dq - U_Wᵀ dlambda = r1, U_W dq = r2, given g = F⁻¹r1; returns dw = Fᵀdq.
+  /// Solves A dq - U_Sᵀ dlambda = r1, U_S dq = r2, given g = F⁻¹r1; returns dw = Fᵀdq.
   void correct(const Vector& g, Vector r2, Vector& dw, Vector& dlambda) const;
 
  private:
-  /// R⁻ᵀs of W: in the span of its rows, the nearest motion to 0 that holds them.
+  /// R⁻ᵀs of S: in the span of its rows, the nearest motion to 0 that holds them.
   Vector shortest_motion() const;
   void sharpen(Index p, Split& split);
   void take(Index p);

@@ -51,7 +51,7 @@ GalleryInstance hexagonal_packing(Index discs, double part_at_rest, std::uint32_
   Vector lambda = Vector::Zero(m);
   z = weights.cwiseProduct(q);
   for (Index a = 0; a < m; ++a) {
-    const auto [low, high, nx, ny] = all[static_cast<std::size_t>(a)];
+    const auto [low, high, nx, ny] = all[at(a)];
     const double apart = ny * (q[2 * high + 1] - (low < 0 ? 0 : q[2 * low + 1]));
     lambda[a] = apart > 0 ? 0 : draw.integer(0, 8);
     const auto add = [&](Index i, double value) {

@@ -45,7 +45,7 @@ DoubleDoubleVector exact_solution(const Matrix& K, const Vector& b) {
   rows << K, -b;
   IntegerRows integers;
   for (const ExactVector& row : exact_rows(rows)) integers.push_back(row.numerators);
-  const Echelon kernel = annihilator(echelon(integers, static_cast<std::size_t>(n + 1)));
+  const Echelon kernel = annihilator(echelon(integers, at(n + 1)));
   DoubleDoubleVector v(n);
   if (kernel.rank() != 1) return DoubleDoubleVector(0);
   const IntegerVector& line = kernel.rows[0];
@@ -54,7 +54,7 @@ DoubleDoubleVector exact_solution(const Matrix& K, const Vector& b) {
   const bool negative = last.sign() < 0;
   const Integer denominator = negative ? -last : last;
   for (Index i = 0; i < n; ++i) {
-    const Integer& entry = line[static_cast<std::size_t>(i)];
+    const Integer& entry = line[at(i)];
     const DoubleDouble pair = nearest_pair({negative ? -entry : entry, denominator});
     v.hi[i] = pair.hi;
     v.lo[i] = pair.lo;
@@ -88,7 +88,7 @@ GalleryInstance ill_conditioned(Index n, double condition, std::uint32_t seed) {
     K.topLeftCorner(n, n) = A;
     b.head(n) = instance.problem.z;
     for (Index k = 0; k < held; ++k) {
-      const Index a = active[static_cast<std::size_t>(k)];
+      const Index a = active[at(k)];
       K.block(0, n + k, n, 1) = -U.row(a).transpose();
       K.block(n + k, 0, 1, n) = U.row(a);
       b[n + k] = instance.problem.s[a];
@@ -98,8 +98,7 @@ GalleryInstance ill_conditioned(Index n, double condition, std::uint32_t seed) {
     instance.solution.hi = truth.hi.head(n);
     instance.solution.lo = truth.lo.head(n);
     bool strict = truth.hi.tail(held).minCoeff() > 0x1p-20;
-    for (Index k = 0; k < held; ++k)
-      instance.multipliers[active[static_cast<std::size_t>(k)]] = truth.hi[n + k];
+    for (Index k = 0; k < held; ++k) instance.multipliers[active[at(k)]] = truth.hi[n + k];
     const Vector slack = U * instance.solution.hi - instance.problem.s;
     for (Index a = 0; a < m; ++a) strict = strict && (instance.multipliers[a] > 0 || slack[a] > 0x1p-10);
     if (strict) return instance;

@@ -34,7 +34,7 @@ GalleryInstance pair(Index n, double angle, std::uint32_t seed, bool opposite) {
   const double tilt = std::ldexp(1.0, static_cast<int>(std::lround(std::log2(angle))));
   Vector twin = opposite ? Vector(-u) : u;
   twin[apart] = tilt;
-  // The multipliers of a flat wedge cancel but for their tilted part, which is to count.
+  // The multipliers at a flat vertex cancel but for their tilted part, which is to count.
   const double multiplier = opposite ? draw.integer(1, 8) / tilt : draw.integer(1, 8);
   rows.add(u, opposite ? multiplier : draw.integer(1, 8), 0);
   rows.add(twin, multiplier, 0);

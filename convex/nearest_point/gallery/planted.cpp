@@ -26,14 +26,13 @@ void PlantedRows::add_apart(Index count, Draw& draw) {
 
 GalleryInstance PlantedRows::instance(Draw& draw) const {
   const Index n = q_.size(), m = count();
-  std::vector<Index> order(static_cast<std::size_t>(m));
+  std::vector<Index> order(at(m));
   std::iota(order.begin(), order.end(), Index{0});
-  for (Index a = m - 1; a > 0; --a)
-    std::swap(order[static_cast<std::size_t>(a)], order[static_cast<std::size_t>(draw.index(a + 1))]);
+  for (Index a = m - 1; a > 0; --a) std::swap(order[at(a)], order[at(draw.index(a + 1))]);
   RowMatrix U(m, n);
   Vector lambda(m), slack(m);
   for (Index a = 0; a < m; ++a) {
-    const auto from = static_cast<std::size_t>(order[static_cast<std::size_t>(a)]);
+    const auto from = at(order[static_cast<std::size_t>(a)]);
     U.row(a) = rows_[from];
     lambda[a] = lambda_[from];
     slack[a] = slack_[from];

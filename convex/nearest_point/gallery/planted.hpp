@@ -15,7 +15,7 @@ class PlantedRows {
 
   const Vector& q() const { return q_; }
   Index count() const { return static_cast<Index>(rows_.size()); }
-  const Vector& row(Index a) const { return rows_[static_cast<std::size_t>(a)]; }
+  const Vector& row(Index a) const { return rows_[at(a)]; }
 
   /// A row that holds (slack 0, lambda >= 0) or is apart (lambda 0, slack > 0).
   void add(const Vector& u, double lambda, double slack) {

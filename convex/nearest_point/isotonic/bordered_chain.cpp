@@ -39,7 +39,7 @@ class BorderedChain {
         pooling_(problem, strings),
         count_(static_cast<Index>(strings.border.size())),
         place_(strings.coordinate.size()),
-        force_(problem.z),
+        linear_(problem.z),
         rest_(Vector::Zero(problem.dimension())),
         mu_(count_),
         length_(problem.U.lengths(problem.A.diagonal().cwiseInverse())) {
@@ -57,7 +57,7 @@ class BorderedChain {
       if (strings_.row[k] >= 0) place_of_row[at(strings_.row[k])] = static_cast<int>(k);
     const auto sign_of = [&](Index a) -> std::optional<int> {
       const int k = place_of_row[at(a)];
-      return k < 0 ? std::nullopt : pooling_.rise_below(k, problem_.z, force_, rest_);
+      return k < 0 ? std::nullopt : pooling_.rise_below(k, problem_.z, linear_, rest_);
     };
     const double rounding = 8 * unit_roundoff * unit_roundoff * static_cast<double>(problem_.dimension()) *
                             pooling_.farthest_offset();
@@ -77,20 +77,20 @@ class BorderedChain {
  private:
   Index row(Index b) const { return strings_.border[at(b)]; }
 
-  /// The force with the border's multipliers, as pairs.
+  /// The linear term with the border's multipliers, as pairs.
   void load(const DoubleDoubleVector& mu) {
     for (Index b = 0; b < count_; ++b)
       for (SparseRows::InnerIterator it(problem_.U.sparse(), row(b)); it; ++it) {
-        force_[it.col()] = problem_.z[it.col()];
+        linear_[it.col()] = problem_.z[it.col()];
         rest_[it.col()] = 0;
       }
     for (Index b = 0; b < count_; ++b)
       for (SparseRows::InnerIterator it(problem_.U.sparse(), row(b)); it; ++it)
-        accumulate_product(it.value(), mu[b], force_[it.col()], rest_[it.col()]);
+        accumulate_product(it.value(), mu[b], linear_[it.col()], rest_[it.col()]);
     for (Index b = 0; b < count_; ++b)
       for (SparseRows::InnerIterator it(problem_.U.sparse(), row(b)); it; ++it) {
-        const DoubleDouble tidy = two_sum(force_[it.col()], rest_[it.col()]);
-        force_[it.col()] = tidy.hi;
+        const DoubleDouble tidy = two_sum(linear_[it.col()], rest_[it.col()]);
+        linear_[it.col()] = tidy.hi;
         rest_[it.col()] = tidy.lo;
       }
   }
@@ -98,7 +98,7 @@ class BorderedChain {
   /// s - Uq on the border with the strings solved in doubles.
   Vector gradient(const Vector& mu) {
     load(DoubleDoubleVector(mu));
-    pooling_.pool(force_);
+    pooling_.pool(linear_);
     pooling_.place(q_);
     ++poolings_;
     SolveWatch::tell("bordered-chain", poolings_);
@@ -126,7 +126,7 @@ class BorderedChain {
       for (SparseRows::InnerIterator it(problem_.U.sparse(), row(b)); it; ++it) {
         const auto after = std::upper_bound(pools.begin(), pools.end(), place_[at(it.col())],
                                             [](int k, const Pooling::Pool& pool) { return k < pool.begin; });
-        entries.push_back({static_cast<std::size_t>(after - pools.begin()) - 1, b, it.value()});
+        entries.push_back({at(after - pools.begin()) - 1, b, it.value()});
       }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& x, const Entry& y) { return x.pool < y.pool; });
@@ -177,11 +177,11 @@ class BorderedChain {
 
   bool approach() {
     Vector mu = Vector::Zero(count_), left = gradient(mu), d;
-    const double force = problem_.A.dual_norm(problem_.z);
+    const double z_norm = problem_.A.dual_norm(problem_.z);
     while (true) {
       const Matrix H = curvature(rough_ridge);
       if (!step(left, H, mu, d)) return false;
-      const double slope = left.dot(d), scale = std::max(problem_.A.norm(q_), force);
+      const double slope = left.dot(d), scale = std::max(problem_.A.norm(q_), z_norm);
       if (std::sqrt(std::max(0.0, d.dot(H * d))) <= nearly_met * scale || !(slope > 0)) break;
       // The slope along d falls in pieces of straight lines; its zero lies between `low` and `high`, and is
       // found by Newton's method there.
@@ -219,8 +219,8 @@ class BorderedChain {
     Vector left(count_), d;
     for (int k = 0; k < most_refinements; ++k, ++poolings_) {
       load(mu_);
-      pooling_.pool(force_);
-      pooling_.refine(force_, rest_);
+      pooling_.pool(linear_);
+      pooling_.refine(linear_, rest_);
       const DoubleDoubleVector& q = pooling_.q();
       const double scale = std::max(problem_.A.norm(q.hi), problem_.A.dual_norm(problem_.z));
       double most = 0;
@@ -251,7 +251,7 @@ class BorderedChain {
   Index count_;
   std::vector<int> place_;  // of a coordinate among the strings
   std::vector<bool> two_sided_;
-  Vector force_, rest_, q_;
+  Vector linear_, rest_, q_;
   DoubleDoubleVector mu_;
   Vector length_;
   Index poolings_ = 0;

@@ -75,7 +75,7 @@ class Placement {
     const Index end = pools_[pool + 1];
     for (; k < end && chain_.is_level(); ++k) {
       weight.add(chain_.mass[order_.coordinate(k)]);
-      sum.add(chain_.force[order_.coordinate(k)]);
+      sum.add(chain_.linear[order_.coordinate(k)]);
     }
     while (k < end) {
       if (k < lowered_ || k >= lowered_end_) lower_from(k);
@@ -87,23 +87,24 @@ class Placement {
     return {weight.tidy(), sum.tidy()};
   }
 
-  /// Forces on the members from k on in the coordinates that pools have in common.
+  /// Linear terms of the members from k on in the coordinates that pools have in common.
   void lower_from(Index k) {
     lowered_ = k;
     lowered_end_ = std::min(k + width, chain_.n);
-    const auto [mass, force] = numbers(k, lowered_end_ - k, lowered_mass_, lowered_force_);
-    lower(lowered_end_ - k, mass, force, chain_.offset_hi + k, chain_.offset_lo + k, lowered_hi_.data(),
+    const auto [mass, linear] = numbers(k, lowered_end_ - k, lowered_mass_, lowered_linear_);
+    lower(lowered_end_ - k, mass, linear, chain_.offset_hi + k, chain_.offset_lo + k, lowered_hi_.data(),
           lowered_lo_.data());
   }
 
-  /// Masses and forces of members from k on, as they stand or brought together.
-  std::pair<const double*, const double*> numbers(Index k, Index count, Numbers& mass, Numbers& force) const {
-    if constexpr (std::is_same_v<Order, InOrder>) return {chain_.mass + k, chain_.force + k};
+  /// Masses and linear terms of members from k on, as they stand or brought together.
+  std::pair<const double*, const double*> numbers(Index k, Index count, Numbers& mass,
+                                                  Numbers& linear) const {
+    if constexpr (std::is_same_v<Order, InOrder>) return {chain_.mass + k, chain_.linear + k};
     for (Index j = 0; j < count; ++j) {
       mass[at(j)] = chain_.mass[order_.coordinate(k + j)];
-      force[at(j)] = chain_.force[order_.coordinate(k + j)];
+      linear[at(j)] = chain_.linear[order_.coordinate(k + j)];
     }
-    return {mass.data(), force.data()};
+    return {mass.data(), linear.data()};
   }
 
   /// Pools below the floor are lifted to it.
@@ -132,7 +133,7 @@ class Placement {
         block_.factor[at(k - first)] = order_.factor(k + 1);
       if (end == chain_.n) block_.factor[at(end - 1 - first)] = 1;
     }
-    std::tie(block_.mass, block_.force) = numbers(first, block_.count, block_.mass_list, block_.force_list);
+    std::tie(block_.mass, block_.linear) = numbers(first, block_.count, block_.mass_list, block_.linear_list);
     const std::size_t known = placed_;
     std::size_t begun = 0;
     for (; pools_[known + begun] < end; ++begun) {
@@ -221,8 +222,8 @@ class Placement {
     const double sums = safety * rounding_of_pools(chain_, scale);
     const StringMembers members = [&](Index k) {
       const Index row = order_.row(k), i = order_.coordinate(k);
-      return row < 0 ? StringMember{chain_.mass[i], chain_.force[i], 1, 0}
-                     : StringMember{chain_.mass[i], chain_.force[i], order_.factor(k), chain_.s[row]};
+      return row < 0 ? StringMember{chain_.mass[i], chain_.linear[i], 1, 0}
+                     : StringMember{chain_.mass[i], chain_.linear[i], order_.factor(k), chain_.s[row]};
     };
     for (std::size_t p = lifted_; p + 1 < pools_.size(); ++p) {
       const Index k = pools_[p], row = order_.row(k);
@@ -234,7 +235,7 @@ class Placement {
       const std::optional<int> up = p == lifted_ && order_.row(0) >= 0
                                         ? rise_over_floor(members, 0, k, pools_[p + 1])
                                         : rise(members, pools_[p - 1], k, pools_[p + 1]);
-      if (!up) found_.undecided = open_question::touched;
+      if (!up) found_.undecided = open_question::degenerate_rows;
       slack = up && *up <= 0 ? 0 : std::max(slack, std::numeric_limits<double>::denorm_min());
     }
   }
@@ -245,7 +246,7 @@ class Placement {
   Solution& found_;
   Block block_;
   Squares squares_;
-  Numbers lowered_mass_, lowered_force_, lowered_hi_, lowered_lo_;  // of the members from lowered_ on
+  Numbers lowered_mass_, lowered_linear_, lowered_hi_, lowered_lo_;  // of the members from lowered_ on
   Index lowered_ = 0, lowered_end_ = 0;
   Numbers weight_hi_, weight_lo_, sum_hi_, sum_lo_, mean_hi_, mean_lo_;  // of pools that begin in the block
   DoubleDouble floor_height_{}, height_{}, mean_{-INFINITY, 0};

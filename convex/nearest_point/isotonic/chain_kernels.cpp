@@ -45,11 +45,11 @@ void lift(Block& block, const double* offset_hi, const double* offset_lo) {
 }
 
 MOREAU_CLONES
-void lower(Index count, const double* mass, const double* force, const double* offset_hi,
+void lower(Index count, const double* mass, const double* linear, const double* offset_hi,
            const double* offset_lo, double* hi, double* lo) {
 #pragma GCC ivdep
   for (Index j = 0; j < count; ++j) {
-    const DoubleDouble load = add({force[j], 0}, negative(product({offset_hi[j], offset_lo[j]}, mass[j])));
+    const DoubleDouble load = add({linear[j], 0}, negative(product({offset_hi[j], offset_lo[j]}, mass[j])));
     hi[j] = load.hi;
     lo[j] = load.lo;
   }
@@ -57,13 +57,13 @@ void lower(Index count, const double* mass, const double* force, const double* o
 
 MOREAU_CLONES
 void weigh(Block& block) {
-  const double *const masses = block.mass, *const forces = block.force;
+  const double *const masses = block.mass, *const linear_terms = block.linear;
 #pragma GCC ivdep
-  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+  for (std::size_t j = 0; j < at(block.count); ++j) {
     const double mass = masses[j], lo = block.x_lo[j + 1];
     const DoubleDouble plain = two_product(mass, block.x_hi[j + 1]),
                        inertia = two_sum(plain.hi, plain.lo + lo * mass),
-                       left = two_sum(forces[j], -inertia.hi);
+                       left = two_sum(linear_terms[j], -inertia.hi);
     block.plain_hi[j] = plain.hi;
     block.plain_lo[j] = plain.lo;
     block.inertia[j] = std::abs(inertia.hi);
@@ -76,7 +76,7 @@ MOREAU_CLONES
 Index drop_rounding(Block& block) {
   Index pulls = 0;
 #pragma GCC ivdep
-  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+  for (std::size_t j = 0; j < at(block.count); ++j) {
     const double pushed = block.pushed[j], quiet = zero_of_long_sums * block.largest[j];
     pulls += pushed < -quiet ? 1 : 0;
     block.pushed[j] = pushed > quiet ? pushed : 0;
@@ -87,7 +87,7 @@ Index drop_rounding(Block& block) {
 MOREAU_CLONES
 void divide(Block& block) {
 #pragma GCC ivdep
-  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+  for (std::size_t j = 0; j < at(block.count); ++j) {
     const double lambda = block.pushed[j] / block.factor[j];
     const DoubleDouble load = two_product(lambda, block.factor[j]);
     block.lambda[j] = lambda;
@@ -97,7 +97,7 @@ void divide(Block& block) {
 }
 
 void copy(Block& block) {
-  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+  for (std::size_t j = 0; j < at(block.count); ++j) {
     block.lambda[j] = block.load_hi[j + 1] = block.pushed[j];
     block.load_lo[j + 1] = 0;
   }
@@ -109,9 +109,8 @@ namespace {
 MOREAU_INLINE void add_by_lanes(Index count, const Numbers& term, std::array<double, lanes>& sum) {
   Index j = 0;
   for (; j + lanes <= count; j += lanes)
-    for (Index lane = 0; lane < lanes; ++lane)
-      sum[static_cast<std::size_t>(lane)] += term[static_cast<std::size_t>(j + lane)];
-  for (std::size_t lane = 0; j < count; ++j, ++lane) sum[lane] += term[static_cast<std::size_t>(j)];
+    for (Index lane = 0; lane < lanes; ++lane) sum[at(lane)] += term[at(j + lane)];
+  for (std::size_t lane = 0; j < count; ++j, ++lane) sum[lane] += term[at(j)];
 }
 
 }  // namespace
@@ -119,18 +118,18 @@ MOREAU_INLINE void add_by_lanes(Index count, const Numbers& term, std::array<dou
 MOREAU_CLONES
 void judge(Block& block, Squares& squares) {
   Numbers unbalanced, q, z, lost;
-  const double *const masses = block.mass, *const forces = block.force;
+  const double *const masses = block.mass, *const linear_terms = block.linear;
 #pragma GCC ivdep
-  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
-    const double mass = masses[j], force = forces[j], x = block.x_hi[j + 1], lo = block.x_lo[j + 1];
-    const DoubleDouble below = two_sum(force, block.load_hi[j]),
+  for (std::size_t j = 0; j < at(block.count); ++j) {
+    const double mass = masses[j], linear = linear_terms[j], x = block.x_hi[j + 1], lo = block.x_lo[j + 1];
+    const DoubleDouble below = two_sum(linear, block.load_hi[j]),
                        above = two_sum(below.hi, -block.load_hi[j + 1]),
                        inertia = two_sum(above.hi, -block.plain_hi[j]);
     const double small = (below.lo + block.load_lo[j]) + (above.lo - block.load_lo[j + 1]),
                  rest = inertia.hi + (small + (inertia.lo - block.plain_lo[j])), inverse = 1 / mass;
     unbalanced[j] = rest * rest * inverse;
     q[j] = x * x * mass;
-    z[j] = force * force * inverse;
+    z[j] = linear * linear * inverse;
     lost[j] = lo * lo * mass;
   }
   add_by_lanes(block.count, unbalanced, squares.unbalanced);
@@ -148,10 +147,10 @@ MOREAU_INLINE double largest_of(Index count, const Numbers& x, double least) {
   Index j = 0;
   for (; j + 2 * lanes <= count; j += 2 * lanes)
     for (std::size_t lane = 0; lane < 2 * lanes; ++lane) {
-      const double y = x[static_cast<std::size_t>(j) + lane];
+      const double y = x[at(j) + lane];
       most[lane] = y > most[lane] ? y : most[lane];
     }
-  for (; j < count; ++j) most[0] = std::max(most[0], x[static_cast<std::size_t>(j)]);
+  for (; j < count; ++j) most[0] = std::max(most[0], x[at(j)]);
   return *std::max_element(most.begin(), most.end());
 }
 
@@ -164,9 +163,9 @@ void measure_links(Index count, const double* mass, const double* q, const doubl
   Shifted light;  // divisions take longest
   Numbers product;
 #pragma GCC ivdep
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(count); ++k) light[k] = 1 / mass[k];
+  for (std::size_t k = 0; k <= at(count); ++k) light[k] = 1 / mass[k];
 #pragma GCC ivdep
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+  for (std::size_t k = 0; k < at(count); ++k) {
     const DoubleDouble rise = two_sum(q[k + 1], -q[k]), rest = two_sum(rise.hi, -s[k]);
     const double slack = rest.hi + (rise.lo + rest.lo);
     product[k] = lambda[k] * slack;
@@ -184,7 +183,7 @@ void divide_links(Index count, const double* s, double q_norm, double scale, Lin
                   double& complementarity) {
   Numbers over, excess;
 #pragma GCC ivdep
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+  for (std::size_t k = 0; k < at(count); ++k) {
     const double length = std::sqrt(links.square[k]);
     const double size = std::abs(s[k]) + length * q_norm, other = length * scale;
     const double some = other > 0 ? other : 1;
@@ -195,7 +194,7 @@ void divide_links(Index count, const double* s, double q_norm, double scale, Lin
   }
   if (!(largest_of(count, excess, 0) > 0)) return;  // divisions take longest
 #pragma GCC ivdep
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+  for (std::size_t k = 0; k < at(count); ++k) {
     links.violation[k] = links.violation[k] / over[k];
     links.complementarity[k] = links.complementarity[k] / over[k];
   }

@@ -18,8 +18,8 @@ using Shifted = std::array<double, width + 1 + lanes>;  ///< a place for the mem
 /// that sum, lambda, and their product.
 struct Block {
   Index first, count;
-  const double *mass, *force;
-  Numbers mass_list, force_list, factor, goes_on, inertia, plain_hi, plain_lo, left_hi, left_lo, pushed,
+  const double *mass, *linear;
+  Numbers mass_list, linear_list, factor, goes_on, inertia, plain_hi, plain_lo, left_hi, left_lo, pushed,
       largest, lambda;
   Shifted x_hi, x_lo, load_hi, load_lo;
 };
@@ -34,10 +34,10 @@ Index count_links(Index count, const double* values, Index& ones);
 void make_tidy(Index count, double* hi, double* lo);
 /// x += offset, of pairs.
 void lift(Block&, const double* offset_hi, const double* offset_lo);
-/// force - mass offset, as a pair.
-void lower(Index count, const double* mass, const double* force, const double* offset_hi,
+/// linear - mass offset, as a pair.
+void lower(Index count, const double* mass, const double* linear, const double* offset_hi,
            const double* offset_lo, double* hi, double* lo);
-/// force - mass x, and its parts.
+/// linear - mass x, and its parts.
 void weigh(Block&);
 /// What rows push with is 0 within the rounding of its sum; how many would have to pull.
 Index drop_rounding(Block&);

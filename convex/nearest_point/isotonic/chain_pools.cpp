@@ -60,9 +60,8 @@ std::vector<int> pool_members(Index n, Pool<Sum>* const bottom, const Member mem
     }
   }
   *free++ = top;
-  std::vector<int> first(static_cast<std::size_t>(free - bottom) + 1, static_cast<int>(n));
-  for (const Pool<Sum>* pool = bottom; pool != free; ++pool)
-    first[static_cast<std::size_t>(pool - bottom)] = pool->begin;
+  std::vector<int> first(at(free - bottom) + 1, static_cast<int>(n));
+  for (const Pool<Sum>* pool = bottom; pool != free; ++pool) first[at(pool - bottom)] = pool->begin;
   return first;
 }
 
@@ -107,7 +106,7 @@ template <class Order>
 Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order, Arena& arena)
     : n(problem.dimension()),
       mass(problem.A.diagonal().data()),
-      force(problem.z.data()),
+      linear(problem.z.data()),
       s(problem.s.data()),
       order(the_order) {
   bool level = true;  // but for the floor
@@ -143,9 +142,9 @@ template <class Order>
 std::vector<int> pool(const Chain<Order>& chain, Arena& arena) {
   static_assert(sizeof(Pool<double>) == 3 * sizeof(double));
   auto* const room = new (arena.take<double>(3 * chain.n)) Pool<double>[at(chain.n)];
-  const auto member = [order = chain.order, mass = chain.mass, force = chain.force](Index k) {
+  const auto member = [order = chain.order, mass = chain.mass, linear = chain.linear](Index k) {
     const Index i = order.coordinate(k);
-    return Pool<double>{static_cast<int>(k), mass[i], force[i]};
+    return Pool<double>{static_cast<int>(k), mass[i], linear[i]};
   };
   if (chain.is_level()) return pool_members(chain.n, room, member);
   return pool_members(chain.n, room, [member, offset = chain.offset_hi](Index k) {

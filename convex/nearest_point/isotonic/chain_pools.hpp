@@ -31,8 +31,8 @@ struct Listed {
   const Strings& strings;
   const SparseRows& U;
   static constexpr bool plain = false;
-  Index coordinate(Index k) const { return strings.coordinate[static_cast<std::size_t>(k)]; }
-  Index row(Index k) const { return strings.row[static_cast<std::size_t>(k)]; }
+  Index coordinate(Index k) const { return strings.coordinate[at(k)]; }
+  Index row(Index k) const { return strings.row[at(k)]; }
   double factor(Index k) const { return std::abs(U.valuePtr()[U.outerIndexPtr()[row(k)]]); }
 };
 
@@ -46,15 +46,15 @@ struct Chain {
   static Index lines(Index n) { return 5 * padded(n) / 8 + 1; }
   /// s/c of the row below member k.
   DoubleDouble bound(Index k) const;
-  /// The force on member k in the coordinates y that pools have in common.
+  /// The linear term of member k in the coordinates y that pools have in common.
   DoubleDouble load(Index k) const {
     const Index i = order.coordinate(k);
-    const DoubleDouble plain{force[i], 0};
+    const DoubleDouble plain{linear[i], 0};
     return is_level() ? plain : add(plain, negative(product({offset_hi[k], offset_lo[k]}, mass[i])));
   }
   bool is_level() const { return !offset_hi; }
   Index n;
-  const double *mass, *force, *s;
+  const double *mass, *linear, *s;
   Order order;
   double *offset_hi = nullptr, *offset_lo = nullptr;  ///< of a member over the first; none when all are 0
   double farthest_offset = 0, total_mass = 0;         ///< |offset| at most, and Σ m, where there are offsets

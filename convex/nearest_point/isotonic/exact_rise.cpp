@@ -36,17 +36,17 @@ class Heights {
   Fraction height_;
 };
 
-/// The mean of force - mass height over the members, by mass; none when it takes too long.
+/// The mean of linear - mass height over the members, by mass; none when it takes too long.
 std::optional<Fraction> mean(const StringMembers& members, Heights& heights, Index begin, Index end) {
-  Fraction mass, force;
+  Fraction mass, linear;
   for (Index k = begin; k < end; ++k) {
     const StringMember member = members(k);
     const Fraction own = fraction(member.mass);
     mass = mass + own;
-    force = force + fraction(member.force) - own * heights.of(k);
+    linear = linear + fraction(member.linear) - own * heights.of(k);
     if (heights.is_too_long()) return std::nullopt;
   }
-  return force / mass;
+  return linear / mass;
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace convex::inline isotonic {
 /// A coordinate of a string, and the row factor (q - q_below) >= bound that ties it to the one below; of the
 /// first its floor, factor q >= bound.
 struct StringMember {
-  double mass, force, factor, bound;
+  double mass, linear, factor, bound;
 };
 using StringMembers = std::function<StringMember(Index)>;
 

@@ -2,13 +2,13 @@
 
 namespace convex::inline isotonic {
 std::vector<Index> rows_left_by_peeling(const ConstraintRows& U, const std::vector<Index>& rows) {
-  const std::size_t n = static_cast<std::size_t>(U.dimension());
+  const std::size_t n = at(U.dimension());
   // How many rows have the coordinate, and the sum of their positions: of one row, its position.
   std::vector<Index> count(n, 0), sum(n, 0);
   std::vector<bool> left(rows.size(), true);
   for (std::size_t k = 0; k < rows.size(); ++k)
     U.for_each_entry(rows[k], [&](Index entry, double) {
-      const auto i = static_cast<std::size_t>(entry);
+      const auto i = at(entry);
       ++count[i];
       sum[i] += static_cast<Index>(k);
     });
@@ -20,9 +20,9 @@ std::vector<Index> rows_left_by_peeling(const ConstraintRows& U, const std::vect
     single.pop_back();
     if (count[own] != 1) continue;
     const Index k = sum[own];
-    left[static_cast<std::size_t>(k)] = false;
-    U.for_each_entry(rows[static_cast<std::size_t>(k)], [&](Index entry, double) {
-      const auto i = static_cast<std::size_t>(entry);
+    left[at(k)] = false;
+    U.for_each_entry(rows[at(k)], [&](Index entry, double) {
+      const auto i = at(entry);
       --count[i];
       sum[i] -= k;
       if (count[i] == 1) single.push_back(i);

@@ -47,8 +47,8 @@ void Pooling::find_offsets() {
     farthest_offset_ = std::max(farthest_offset_, std::abs(offset.hi));
 }
 
-Pooling::Pool Pooling::member(int k, const Vector& force) const {
-  Pool pool{k, k + 1, mass(k), force[strings_.coordinate[at(k)]], 0};
+Pooling::Pool Pooling::member(int k, const Vector& linear) const {
+  Pool pool{k, k + 1, mass(k), linear[strings_.coordinate[at(k)]], 0};
   if (!offset_.empty()) pool.sum -= offset_[at(k)].hi * pool.weight;
   pool.mean = pool.sum / pool.weight;
   return pool;
@@ -94,13 +94,13 @@ void Pooling::find_parts(const NearestPointProblem& problem) {
   first_part_.push_back(parts_.size());
 }
 
-void Pooling::pool(const Vector& force) {
+void Pooling::pool(const Vector& linear) {
   pools_.clear();
   first_pool_.clear();
   for (std::size_t t = 0; t + 1 < first_part_.size(); ++t) {
     first_pool_.push_back(pools_.size());
     for (std::size_t p = first_part_[t]; p < first_part_[t + 1]; ++p)
-      put(pools_, first_pool_.back(), stays_[p] ? parts_[p] : member(parts_[p].begin, force));
+      put(pools_, first_pool_.back(), stays_[p] ? parts_[p] : member(parts_[p].begin, linear));
   }
   first_pool_.push_back(pools_.size());
 }
@@ -121,24 +121,24 @@ bool Pooling::is_lifted(std::size_t pool) const {
   return pools_[pool].mean < floor_[at(string)];
 }
 
-DoubleDouble Pooling::load(int k, const Vector& force, const Vector& rest) const {
+DoubleDouble Pooling::load(int k, const Vector& linear, const Vector& rest) const {
   const int i = strings_.coordinate[at(k)];
-  const DoubleDouble push{force[i], rest.size() > 0 ? rest[i] : 0};
+  const DoubleDouble push{linear[i], rest.size() > 0 ? rest[i] : 0};
   return offset_.empty() ? push : add(push, negative(product(offset_[at(k)], mass_[i])));
 }
 
-Pooling::Sums Pooling::sums(const Pool& pool, const Vector& force, const Vector& rest) const {
+Pooling::Sums Pooling::sums(const Pool& pool, const Vector& linear, const Vector& rest) const {
   RunningSum weight, sum;
   for (int k = pool.begin; k < pool.end; ++k) {
     weight.add(mass(k));
-    sum.add(load(k, force, rest));
+    sum.add(load(k, linear, rest));
   }
   Sums found{weight.tidy(), sum.tidy(), {}};
   found.mean = quotient(found.sum, found.weight);
   return found;
 }
 
-void Pooling::pool_carefully(const Vector& force, const Vector& rest) {
+void Pooling::pool_carefully(const Vector& linear, const Vector& rest) {
   pools_.clear();
   first_pool_.clear();
   std::vector<Sums> stack;
@@ -147,7 +147,7 @@ void Pooling::pool_carefully(const Vector& force, const Vector& rest) {
     stack.clear();
     for (int k = strings_.first[t]; k < strings_.first[t + 1]; ++k) {
       Pool pool{k, k + 1, 0, 0, 0};
-      Sums exact{{mass(k), 0}, load(k, force, rest), {}};
+      Sums exact{{mass(k), 0}, load(k, linear, rest), {}};
       exact.mean = quotient(exact.sum, exact.weight);
       while (!stack.empty() && !less(stack.back().mean, exact.mean)) {
         exact.weight = add(stack.back().weight, exact.weight);
@@ -164,21 +164,21 @@ void Pooling::pool_carefully(const Vector& force, const Vector& rest) {
   first_pool_.push_back(pools_.size());
 }
 
-void Pooling::refine(const Vector& force, const Vector& rest) {
-  if (place_all(force, rest, false)) return;
-  pool_carefully(force, rest);
-  place_all(force, rest, true);
+void Pooling::refine(const Vector& linear, const Vector& rest) {
+  if (place_all(linear, rest, false)) return;
+  pool_carefully(linear, rest);
+  place_all(linear, rest, true);
 }
 
-bool Pooling::place_all(const Vector& force, const Vector& rest, bool careful) {
+bool Pooling::place_all(const Vector& linear, const Vector& rest, bool careful) {
   for (std::size_t t = 0; t + 1 < first_pool_.size(); ++t)
-    if (!place_string(force, rest, careful, t)) return false;
+    if (!place_string(linear, rest, careful, t)) return false;
   return true;
 }
 
 /// False when the pools prove wrong: means that fall, or a negative multiplier. `careful`: then it is
 /// rounding.
-bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful, std::size_t string) {
+bool Pooling::place_string(const Vector& linear, const Vector& rest, bool careful, std::size_t string) {
   const std::size_t first = first_pool_[string], end = first_pool_[string + 1];
   const int floor = floor_of(strings_.first[string]), last_member = strings_.first[string + 1];
   std::size_t lifted = first;  // pools below the floor end here
@@ -188,7 +188,7 @@ bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful
   if (floor >= 0) {
     least = bound(floor);
     for (; lifted < end; ++lifted) {
-      const Sums exact = sums(pools_[lifted], force, rest);
+      const Sums exact = sums(pools_[lifted], linear, rest);
       if (!less(exact.mean, least)) break;
       push.add(add(product_of_pairs(exact.weight, least), negative(exact.sum)));
     }
@@ -198,7 +198,7 @@ bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful
   DoubleDouble previous{-INFINITY, 0};
   for (std::size_t p = first; p < end; ++p) {
     const Pool& pool = pools_[p];
-    DoubleDouble level = sums(pool, force, rest).mean;
+    DoubleDouble level = sums(pool, linear, rest).mean;
     if (!careful && less(level, previous)) return false;
     previous = level;
     if (p < lifted) level = least;
@@ -208,7 +208,7 @@ bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful
       q_.hi[i] = x.hi;
       q_.lo[i] = x.lo;
       const DoubleDouble inertia = product(x, mass_[i]);
-      push.add(DoubleDouble{force[i], rest.size() > 0 ? rest[i] : 0});
+      push.add(DoubleDouble{linear[i], rest.size() > 0 ? rest[i] : 0});
       push.add(negative(inertia));
       largest = std::max({largest, std::abs(push.hi), std::abs(inertia.hi)});
       if (k + 1 == last_member) break;
@@ -228,7 +228,7 @@ bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful
 
 double Pooling::farthest_offset() const { return farthest_offset_ * std::sqrt(mass_.sum()); }
 
-std::optional<int> Pooling::rise_below(int k, const Vector& z, const Vector& force,
+std::optional<int> Pooling::rise_below(int k, const Vector& z, const Vector& linear,
                                        const Vector& rest) const {
   const auto begins_after = [](int place, const Pool& pool) { return place < pool.begin; };
   const auto pool = std::upper_bound(pools_.begin(), pools_.end(), k, begins_after) - 1;
@@ -238,7 +238,7 @@ std::optional<int> Pooling::rise_below(int k, const Vector& z, const Vector& for
   const auto feels_z_alone = [&](const Pool& members) {
     for (int j = members.begin; j < members.end; ++j) {
       const int i = strings_.coordinate[at(j)];
-      if (force[i] != z[i] || rest[i] != 0) return false;
+      if (linear[i] != z[i] || rest[i] != 0) return false;
     }
     return true;
   };

@@ -5,10 +5,10 @@
 
 namespace convex::inline isotonic {
 
-/// The nearest point over the rows of strings alone, for forces that change where rows of the border act, and
-/// are z elsewhere. With q_i = y_i + (the gaps below) each string is an isotonic regression, solved by
-/// pooling adjacent violators (Ayer, Brunk, Ewing, Reid and Silverman 1955), coordinates of a pool having one
-/// y; pools below the floor are lifted to it. O(n); what the changes cannot reach is pooled once.
+/// The nearest point over the rows of strings alone, for linear terms that change where rows of the border
+/// act, and are z elsewhere. With q_i = y_i + (the gaps below) each string is an isotonic regression, solved
+/// by pooling adjacent violators (Ayer, Brunk, Ewing, Reid and Silverman 1955), coordinates of a pool having
+/// one y; pools below the floor are lifted to it. O(n); what the changes cannot reach is pooled once.
 class Pooling {
  public:
   /// Coordinates that move together: members begin … end - 1 in the order of the strings.
@@ -20,13 +20,13 @@ class Pooling {
   Pooling(const NearestPointProblem&, const Strings&);
 
   /// In doubles: the pools are right but for rounding.
-  void pool(const Vector& force);
+  void pool(const Vector& linear);
   /// q of these pools, in doubles: n.
   void place(Vector& q) const;
   /// From the pools on, in twice the working precision: q and the multipliers of the strings' rows. When they
-  /// prove the pools wrong, these are found again with all sums in that precision. The force is force + rest;
-  /// rest may be empty.
-  void refine(const Vector& force, const Vector& rest);
+  /// prove the pools wrong, these are found again with all sums in that precision. The linear term is linear
+  /// + rest; rest may be empty.
+  void refine(const Vector& linear, const Vector& rest);
 
   const std::vector<Pool>& pools() const { return pools_; }
   /// Whether a pool stands on the floor of its string.
@@ -35,8 +35,8 @@ class Pooling {
   /// round is a part of it.
   double farthest_offset() const;
   /// The sign of the slack of the row below place k among the strings, without rounding, at the pools found;
-  /// none where a force besides z acts on them, or fractions take too long.
-  std::optional<int> rise_below(int k, const Vector& z, const Vector& force, const Vector& rest) const;
+  /// none where their linear term is not z, or fractions take too long.
+  std::optional<int> rise_below(int k, const Vector& z, const Vector& linear, const Vector& rest) const;
   /// After `refine`: n.
   const DoubleDoubleVector& q() const { return q_; }
   /// After `refine`: m, 0 on border rows.
@@ -52,13 +52,13 @@ class Pooling {
   int floor_of(int first) const { return strings_.row[static_cast<std::size_t>(first)]; }
   void find_offsets();
   void find_parts(const NearestPointProblem&);
-  Pool member(int k, const Vector& force) const;
+  Pool member(int k, const Vector& linear) const;
   static void put(std::vector<Pool>& pools, std::size_t bottom, Pool pool);
-  void pool_carefully(const Vector& force, const Vector& rest);
-  bool place_all(const Vector& force, const Vector& rest, bool careful);
-  bool place_string(const Vector& force, const Vector& rest, bool careful, std::size_t string);
-  DoubleDouble load(int k, const Vector& force, const Vector& rest) const;
-  Sums sums(const Pool&, const Vector& force, const Vector& rest) const;
+  void pool_carefully(const Vector& linear, const Vector& rest);
+  bool place_all(const Vector& linear, const Vector& rest, bool careful);
+  bool place_string(const Vector& linear, const Vector& rest, bool careful, std::size_t string);
+  DoubleDouble load(int k, const Vector& linear, const Vector& rest) const;
+  Sums sums(const Pool&, const Vector& linear, const Vector& rest) const;
 
   const Vector& mass_;
   const SparseRows& U_;
@@ -69,7 +69,7 @@ class Pooling {
   std::vector<double> floor_;            ///< the bound of a string's floor, -inf for none
   std::vector<std::size_t> first_pool_;  ///< of each string, and their number
   std::vector<Pool> parts_;              ///< pools of what stays between the border's coordinates, and those
-  std::vector<bool> stays_;              ///< of each part: its force does
+  std::vector<bool> stays_;              ///< of each part: its linear term does
   std::vector<std::size_t> first_part_;  ///< of each string, and their number
   std::vector<Pool> pools_;
   DoubleDoubleVector q_;

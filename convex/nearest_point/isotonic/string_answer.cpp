@@ -27,7 +27,7 @@ Solution string_answer(const NearestPointProblem& problem, const Accuracy& accur
     found.slack[a] = std::max(0.0, slack(problem, a, q).value());
     if (found.slack[a] > (missing + sums) * problem.U.absolute_dot(a, unit)) continue;
     const std::optional<int> sign = sign_of(a);
-    if (!sign) found.undecided = open_question::touched;
+    if (!sign) found.undecided = open_question::degenerate_rows;
     found.slack[a] =
         sign && *sign > 0 ? std::max(found.slack[a], std::numeric_limits<double>::denorm_min()) : 0;
   }

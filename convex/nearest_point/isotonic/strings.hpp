@@ -6,8 +6,6 @@
 
 namespace convex::inline isotonic {
 
-inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Coordinates strung up by one-sided rows c (q_j - q_i) >= s, c > 0, each coordinate with at most one such
 /// row above and one below; a row c q_i >= s, c > 0, under the first of a string is its floor. Strings stand
 /// one after the other, each from its first coordinate upwards.

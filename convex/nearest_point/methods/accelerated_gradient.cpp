@@ -78,7 +78,7 @@ Solution accelerated_gradient(const NearestPointProblem& problem, const Accuracy
         while (true) {
           next = ahead - gradient / steepest;
           for (Index a = 0; a < k; ++a)
-            if (!scaled.two_sided[static_cast<std::size_t>(a)]) next[a] = std::max(0.0, next[a]);
+            if (!scaled.two_sided[at(a)]) next[a] = std::max(0.0, next[a]);
           Vnext = V.times(next);
           const double moved = (next - ahead).norm();
           // What rounding leaves of a short step tells nothing of the curvature.

@@ -1,3 +1,4 @@
+#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>

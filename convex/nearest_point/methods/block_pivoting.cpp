@@ -1,3 +1,4 @@
+#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
 
 #include "convex/linear_algebra/cholesky.hpp"
@@ -20,7 +21,7 @@ constexpr double noise = 1e-13;
 
 class Pivoting {
  public:
-  explicit Pivoting(const Matrix& M) : M_(M), in_(static_cast<std::size_t>(M.rows()), false) {}
+  explicit Pivoting(const Matrix& M) : M_(M), in_(at(M.rows()), false) {}
 
   /// Solves w = M y - c, y, w >= 0, y·w = 0 from the rows that the last call ended with; false when neither
   /// blocks nor `singles` changes of one row lead there, or at the limit.
@@ -46,14 +47,14 @@ class Pivoting {
     }
     return false;
   }
-  bool holds(Index a) const { return in_[static_cast<std::size_t>(a)]; }
+  bool holds(Index a) const { return in_[at(a)]; }
   Index steps() const { return steps_; }
 
  private:
   void point(const Vector& c, Vector& y) {
     std::vector<Index> rows;
     for (Index a = 0; a < c.size(); ++a)
-      if (in_[static_cast<std::size_t>(a)]) rows.push_back(a);
+      if (in_[at(a)]) rows.push_back(a);
     y.setZero(c.size());
     w_ = -c;
     if (rows.empty()) return;
@@ -68,19 +69,19 @@ class Pivoting {
 
   /// The most negative among rows of a wrong sign.
   Index worst(const std::vector<Index>& wrong, const Vector& y) const {
-    const auto value = [&](Index a) { return in_[static_cast<std::size_t>(a)] ? y[a] : w_[a]; };
+    const auto value = [&](Index a) { return in_[at(a)] ? y[a] : w_[a]; };
     return *std::min_element(wrong.begin(), wrong.end(),
                              [&](Index a, Index b) { return value(a) < value(b); });
   }
 
-  void turn(Index a) { in_[static_cast<std::size_t>(a)] = !in_[static_cast<std::size_t>(a)]; }
+  void turn(Index a) { in_[at(a)] = !in_[at(a)]; }
 
   std::vector<Index> wrong_rows(const Vector& c, const Vector& y) const {
     std::vector<Index> rows;
     if (c.size() == 0) return rows;
     const double least = noise * (c.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff());
     for (Index a = 0; a < c.size(); ++a)
-      if (in_[static_cast<std::size_t>(a)] ? y[a] < 0 : w_[a] < -least) rows.push_back(a);
+      if (in_[at(a)] ? y[a] < 0 : w_[a] < -least) rows.push_back(a);
     return rows;
   }
 
@@ -116,8 +117,7 @@ Solution block_pivoting(const NearestPointProblem& problem, const Accuracy& accu
   if (pivoting.steps() < limit) {
     std::vector<Index> rows;
     for (Index a = 0; a < k; ++a)
-      if (pivoting.holds(a))
-        rows.push_back(white.rows[static_cast<std::size_t>(lcp.columns[static_cast<std::size_t>(a)])]);
+      if (pivoting.holds(a)) rows.push_back(white.rows[at(lcp.columns[static_cast<std::size_t>(a)])]);
     Accuracy rest = accuracy;
     rest.limit = 0;  // `crossover` decides what is left open
     if (rest.step_limit > 0) rest.step_limit -= pivoting.steps();

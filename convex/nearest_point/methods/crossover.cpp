@@ -6,6 +6,7 @@
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/contradiction_within_radii.hpp"
 #include "convex/nearest_point/active_set/dependent_row.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/methods/crossover_rows.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/optimality/farkas_circuit.hpp"
@@ -16,9 +17,6 @@
 
 namespace convex::inline algorithms {
 namespace {
-
-/// Up to so many numbers, a factor is dense.
-constexpr double most_dense_numbers = 4e6;
 
 /// Rows that may change while the active rows are held: those whose sign a converged iteration leaves open,
 /// many where multipliers and slacks are both small.
@@ -39,9 +37,9 @@ std::optional<Vector> contradictory_two_sided_rows(const NearestPointProblem& pr
   return std::nullopt;
 }
 
-class Judge {
+class Crossover {
  public:
-  Judge(const NearestPointProblem& problem, const Candidate& candidate, const Accuracy& accuracy)
+  Crossover(const NearestPointProblem& problem, const Candidate& candidate, const Accuracy& accuracy)
       : problem_(problem),
         candidate_(candidate),
         accuracy_(accuracy),
@@ -82,7 +80,7 @@ class Judge {
     return with_status(polished.error_bound <= raw.error_bound ? polished : raw);
   }
 
-  /// The verdict where doubles leave open what becomes of rows that the point of the rows held touches.
+  /// The verdict where doubles leave open what becomes of rows that the point of the working set touches.
   Solution decided(const HeldRows& held, Solution raw) const {
     Solution open = measured(held.q.hi, signed_right(held.lambda), held.slack);
     open.basis = held.rows;
@@ -136,7 +134,7 @@ class Judge {
   Vector signed_right(const Vector& lambda) const {
     Vector clipped = lambda.size() == problem_.rows() ? lambda : Vector(Vector::Zero(problem_.rows()));
     for (Index a = 0; a < clipped.size(); ++a)
-      if (!two_sided_[static_cast<std::size_t>(a)]) clipped[a] = std::max(0.0, clipped[a]);
+      if (!two_sided_[at(a)]) clipped[a] = std::max(0.0, clipped[a]);
     return clipped;
   }
 
@@ -159,16 +157,11 @@ class Judge {
   /// The bound from the candidate alone; none where a row is violated.
   double bound_of_gap(const Vector& q, const Vector& lambda) const {
     const DoubleDoubleVector point(q);
-    std::vector<Index> loaded;
-    for (Index a = 0; a < problem_.rows(); ++a)
-      if (lambda[a] != 0) loaded.push_back(a);
-    DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
-    for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
-    const double off = problem_.A.dual_norm(stationarity_residual(problem_, point, loaded, weights));
+    const double off = problem_.A.dual_norm(stationarity_residual(problem_, point, lambda));
     const Vector plain = problem_.U.times(q) - problem_.s;
     double gap = 0;
     for (Index a = 0; a < problem_.rows(); ++a) {
-      const bool is_two_sided = two_sided_[static_cast<std::size_t>(a)];
+      const bool is_two_sided = two_sided_[at(a)];
       if (plain[a] > 0 && lambda[a] == 0 && !is_two_sided) continue;
       const double rest = slack(problem_, a, point).value();
       if (rest < 0 || (is_two_sided && rest != 0)) return infinity;
@@ -204,7 +197,7 @@ class Judge {
 }  // namespace
 
 Solution crossover(const NearestPointProblem& problem, const Candidate& candidate, const Accuracy& accuracy) {
-  return Judge(problem, candidate, accuracy).verdict();
+  return Crossover(problem, candidate, accuracy).verdict();
 }
 
 std::optional<Solution> without_a_method(const NearestPointProblem& problem, std::string_view method,
@@ -215,7 +208,7 @@ std::optional<Solution> without_a_method(const NearestPointProblem& problem, std
   const Vector length = problem.U.lengths(Vector::Ones(problem.dimension()));
   const std::vector<bool> two_sided = marked(m, problem.two_sided);
   for (Index a = 0; a < m; ++a) {
-    const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
+    const bool is_two_sided = two_sided[at(a)];
     if (length[a] > 0 || !(problem.s[a] > 0 || (is_two_sided && problem.s[a] < 0))) continue;
     candidate.farkas = Vector::Zero(m);
     candidate.farkas[a] = problem.s[a] > 0 ? 1 : -1;
@@ -227,11 +220,6 @@ std::optional<Solution> without_a_method(const NearestPointProblem& problem, std
   }
   if (length.size() > 0 && length.maxCoeff() > 0) return std::nullopt;
   return crossover(problem, candidate, accuracy);
-}
-
-bool is_dense_size(const NearestPointProblem& problem) {
-  const double n = static_cast<double>(problem.dimension()), m = static_cast<double>(problem.rows());
-  return n * std::min(n, m) <= most_dense_numbers;
 }
 
 }  // namespace convex::inline algorithms

@@ -30,7 +30,7 @@ struct Candidate {
 /// proves half of the digits. Where q violates a row, however little, nothing is proved: there may be no
 /// solution.
 ///
-/// From the rows held: the point p of the active rows (`hold_active_rows`), refined in twice the working
+/// From the working set: the point p of the active rows (`hold_active_rows`), refined in twice the working
 /// precision, meets all conditions exactly but for what refinement left, multipliers negative by rounding,
 /// and rows contradicted by rounding; in each of these ||p - q*|| is linear. Then ||q - q*|| <= ||q - p|| +
 /// ||p - q*||.
@@ -45,9 +45,6 @@ Solution crossover(const NearestPointProblem&, const Candidate&, const Accuracy&
 /// (u_a = 0): nothing is left to a method.
 std::optional<Solution> without_a_method(const NearestPointProblem&, std::string_view method,
                                          const Accuracy&);
-
-/// Whether factors of n·min(n, m) numbers are affordable. Beyond, methods and crossover go by sparse ones.
-bool is_dense_size(const NearestPointProblem&);
 
 /// Up to so many rows, methods that work on a matrix of rows by rows are affordable.
 inline constexpr Index most_dense_rows = 3000;

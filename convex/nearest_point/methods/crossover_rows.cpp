@@ -55,7 +55,7 @@ class Polish {
     const Vector slack = problem_.U.times(q) - problem_.s;
     std::vector<Index> rows;
     for (Index a = 0; a < problem_.rows(); ++a)
-      if (!two_sided_[static_cast<std::size_t>(a)] && row_scale_[a] > 0 && lambda[a] > 0 &&
+      if (!two_sided_[at(a)] && row_scale_[a] > 0 && lambda[a] > 0 &&
           lambda[a] * row_scale_[a] > slack[a] / row_scale_[a])
         rows.push_back(a);
     std::stable_sort(rows.begin(), rows.end(),
@@ -63,7 +63,7 @@ class Polish {
     return rows;
   }
 
-  /// Takes in row p with its multiplier; while it depends on W, the multiplier moves over to W, from which
+  /// Takes in row p with its multiplier; while it depends on S, the multiplier moves over to S, from which
   /// the row that comes to 0 first is dropped.
   void take_in(Index p, double multiplier) {
     set_.split(p, split_);
@@ -84,12 +84,12 @@ class Polish {
     return worst >= 0;
   }
 
-  /// Takes in the most violated row that W does not span.
+  /// Takes in the most violated row that S does not span.
   bool admit_violated(const RefinedPoint& refined) {
     std::vector<Index> rows;
     contradiction_ = moved_edge_ = 0;
     for (Index a = 0; a < problem_.rows(); ++a)
-      if (slack_[a] < 0 || (two_sided_[static_cast<std::size_t>(a)] && slack_[a] != 0)) rows.push_back(a);
+      if (slack_[a] < 0 || (two_sided_[at(a)] && slack_[a] != 0)) rows.push_back(a);
     std::sort(rows.begin(), rows.end(),
               [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
     for (Index p : rows) {
@@ -97,17 +97,17 @@ class Polish {
       const bool spanned = !(split_.rho > 0);
       if (spanned && !(std::abs(contradiction(set_, p, split_)) > 0)) {
         // Where rows that are flat to rounding meet, their edge may be far away.
-        contradiction_ = is_flat_wedge(set_, split_)
+        contradiction_ = is_flat_vertex(set_, split_)
                              ? infinity
                              : std::max(contradiction_, std::abs(slack_[p]) / split_.length);
         count_moved_edge(p);
         continue;
       }
-      if (spanned && two_sided_[static_cast<std::size_t>(p)]) {
+      if (spanned && two_sided_[at(p)]) {
         found_.farkas = contradiction_weights(set_, p, split_, slack_[p] < 0 ? 1 : -1);
         return false;
       }
-      if (two_sided_[static_cast<std::size_t>(p)]) continue;
+      if (two_sided_[at(p)]) continue;
       if (!spanned && -slack_[p] <= 2 * refined.remaining() * split_.length) {
         count_moved_edge(p);
         continue;
@@ -119,13 +119,13 @@ class Polish {
     return false;
   }
 
-  /// How far the violation of row p, taken for 0, leaves the point from the edge of that row and W.
+  /// How far the violation of row p, taken for 0, leaves the point from the edge of that row and S.
   void count_moved_edge(Index p) {
     if (split_.rest > exact_dependence * split_.magnitude)
       moved_edge_ = std::max(moved_edge_, std::abs(slack_[p]) / split_.rest);
   }
 
-  /// Takes in the violated row p; where W spans it, the row that blocks first goes. False when none does:
+  /// Takes in the violated row p; where S spans it, the row that blocks first goes. False when none does:
   /// then the rows contradict each other.
   bool exchange(Index p) {
     while (!(split_.rho > 0)) {
@@ -144,9 +144,8 @@ class Polish {
 
   HeldRows held(const RefinedPoint& refined) const {
     HeldRows found{set_.rows(), refined.q, Vector::Zero(problem_.rows()), slack_};
-    for (Index k = 0; k < set_.size(); ++k)
-      found.lambda[set_.rows()[static_cast<std::size_t>(k)]] = refined.lambda.hi[k];
-    found.remaining = refined.remaining() + refined.silenced + moved_edge_;
+    for (Index k = 0; k < set_.size(); ++k) found.lambda[set_.rows()[at(k)]] = refined.lambda.hi[k];
+    found.remaining = refined.remaining() + refined.dropped + moved_edge_;
     found.inverse_norm = set_.factor().inverse_norm();
     found.contradiction = contradiction_;
     return found;

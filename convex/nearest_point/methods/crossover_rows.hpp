@@ -8,18 +8,18 @@
 
 namespace convex::inline algorithms {
 
-/// The point at which the rows of a set W hold with equality, as in `RefinedPoint`, for the set that a given
+/// The point at which the rows of a set S hold with equality, as in `RefinedPoint`, for the set that a given
 /// q and lambda show to be active.
 struct HeldRows {
-  std::vector<Index> rows;  ///< W; independent when n·m is small enough for a dense factor
+  std::vector<Index> rows;  ///< S; independent when n·m is small enough for a dense factor
   DoubleDoubleVector q;     ///< n
-  Vector lambda;            ///< m; 0 off W. Negative ones on one-sided rows are smaller than `noise`
-  Vector slack;             ///< Uq - s: m; 0 on W and where refinement cannot tell it from 0
-  double remaining = 0;     ///< an estimate of ||q - q_W||_A, q_W the exact point of W
+  Vector lambda;            ///< m; 0 off S. Negative ones on one-sided rows are smaller than `noise`
+  Vector slack;             ///< Uq - s: m; 0 on S and where refinement cannot tell it from 0
+  double remaining = 0;     ///< an estimate of ||q - q_S||_A, q_S the exact point of S
   double inverse_norm =
-      0;  ///< an estimate of 1 / (smallest singular value of the whitened rows of W, each of length 1)
-  double contradiction = 0;  ///< how far beyond the worst row off W that W contradicts by rounding alone
-  std::string_view undecided = {};  ///< what doubles leave open about rows off W
+      0;  ///< an estimate of 1 / (smallest singular value of the whitened rows of S, each of length 1)
+  double contradiction = 0;  ///< how far beyond the worst row off S that S contradicts by rounding alone
+  std::string_view undecided = {};  ///< what doubles leave open about rows off S
 };
 
 /// What came of holding the rows that look active.
@@ -36,7 +36,7 @@ struct Holding {
 Holding hold_active_rows(const NearestPointProblem&, const Vector& q, const Vector& lambda,
                          const Vector& row_scale, Index most_changes);
 
-/// The same with sparse factors, for problems that dense ones are too large for: dependent rows stay in W
+/// The same with sparse factors, for problems that dense ones are too large for: dependent rows stay in S
 /// (`refine_rows`), and rows of a wrong sign change sides all at once, at most three times.
 Holding hold_active_rows_sparse(const NearestPointProblem&, const Vector& q, const Vector& lambda,
                                 const Vector& row_scale);

@@ -10,10 +10,6 @@
 namespace convex::inline algorithms {
 namespace {
 
-/// The weights on the multipliers, as in `sparse_active_set`.
-constexpr double first_delta = 1e-7, smaller = 1e-2;
-constexpr int most_deltas = 3;
-
 /// Times that rows of a wrong sign change sides, all at once.
 constexpr int most_exchanges = 3;
 
@@ -28,7 +24,7 @@ class SparsePolish {
     point_.q = DoubleDoubleVector(q);
     point_.lambda = DoubleDoubleVector(problem_.rows());
     for (Index a = 0; a < problem_.rows(); ++a) {
-      const auto i = static_cast<std::size_t>(a);
+      const auto i = at(a);
       if (!active[i])
         active[i] = row_scale[a] > 0 && lambda[a] > 0 && lambda[a] * row_scale[a] > rest[a] / row_scale[a];
       if (active[i]) point_.lambda.hi[a] = lambda[a];
@@ -38,10 +34,10 @@ class SparsePolish {
       point_.to_the_end = false;
       rows_.clear();
       for (Index a = 0; a < problem_.rows(); ++a)
-        if (active[static_cast<std::size_t>(a)]) rows_.push_back(a);
+        if (active[at(a)]) rows_.push_back(a);
       double delta = first_delta;
       bool refined = false;
-      for (int k = 0; k < most_deltas && !refined; ++k, delta *= smaller) {
+      for (int k = 0; k < most_deltas && !refined; ++k, delta *= smaller_delta) {
         weight_ = even_weights(problem_.rows(), rows_, delta);
         if (!refine_rows(problem_, scaled_, system_, rows_, weight_, 0, point_)) return found;
         refined = point_.converged || point_.wrong_signs;
@@ -49,15 +45,15 @@ class SparsePolish {
       }
       if (!refined) return found;
       if (exchange_wrong(active) || point_.wrong_signs) continue;
-      if (!touched_.empty()) {
+      if (!degenerate_.empty()) {
         point_.to_the_end = true;
         if (!refine_rows(problem_, scaled_, system_, rows_, weight_, 0, point_) || !point_.converged)
           return found;
         if (exchange_wrong(active)) continue;
       }
-      silence_noise(scaled_, point_);
+      drop_noise(scaled_, point_);
       const std::string_view open =
-          decide_tight_rows({problem_, scaled_, system_, rows_, touched_}, point_.q, weight_, 1, slack_);
+          decide_tight_rows({problem_, scaled_, system_, rows_, degenerate_}, point_.q, weight_, 1, slack_);
       found.held = held();
       found.held->undecided = open;
       return found;
@@ -72,9 +68,9 @@ class SparsePolish {
     const double size = std::max(1.0, point_.q.hi.cwiseQuotient(scaled_.coordinate).norm());
     bool wrong = false;
     slack_ = Vector::Zero(problem_.rows());
-    touched_.clear();
+    degenerate_.clear();
     for (Index a = 0; a < problem_.rows(); ++a) {
-      const auto i = static_cast<std::size_t>(a);
+      const auto i = at(a);
       if (active[i]) {
         const double lambda = point_.lambda.hi[a] / scaled_.multiplier[a];
         if (std::abs(lambda) <= 4 * point_.last_lambda[a] + left)
@@ -89,7 +85,7 @@ class SparsePolish {
       if (std::abs(slack_[a]) <=
           scaled_.bound[a] * (left + zero_of_pairs * (size + std::abs(scaled_.s[a])))) {
         slack_[a] = 0;
-        touched_.push_back(a);
+        degenerate_.push_back(a);
       }
       if (!(slack_[a] < 0)) continue;
       active[i] = true;
@@ -113,7 +109,7 @@ class SparsePolish {
   BalancedProblem scaled_;
   RowSystem system_;
   SparsePoint point_;
-  std::vector<Index> rows_, touched_;
+  std::vector<Index> rows_, degenerate_;
   Vector slack_, weight_;
   double delta_ = first_delta;
 };

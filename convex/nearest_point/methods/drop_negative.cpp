@@ -26,8 +26,7 @@ Held hold(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   set.solve();
   const RefinedPoint refined = refine(set);
   Held held{refined.q.hi, Vector::Zero(problem.rows())};
-  for (Index k = 0; k < set.size(); ++k)
-    held.lambda[set.rows()[static_cast<std::size_t>(k)]] = refined.lambda.hi[k];
+  for (Index k = 0; k < set.size(); ++k) held.lambda[set.rows()[at(k)]] = refined.lambda.hi[k];
   return held;
 }
 
@@ -35,7 +34,7 @@ Held hold(const NearestPointProblem& problem, const std::vector<Index>& rows) {
 
 Solution drop_negative(const NearestPointProblem& problem, const Accuracy& accuracy) {
   if (const auto found = without_a_method(problem, "drop-negative", accuracy)) return *found;
-  std::vector<Index> rows(static_cast<std::size_t>(problem.rows()));
+  std::vector<Index> rows(at(problem.rows()));
   std::iota(rows.begin(), rows.end(), Index{0});
   const Held first = hold(problem, rows);
   const Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());

@@ -12,7 +12,7 @@ namespace {
 /// A set whose point violates nothing by more than this (of the scale of the problem) is judged in twice the
 /// precision.
 constexpr double nearly_right = 1e-9;
-constexpr Index most_judged = 300;
+constexpr Index most_certified = 300;
 
 class Enumeration {
  public:
@@ -26,7 +26,7 @@ class Enumeration {
         limit_(limit) {
     const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
     for (Index a = 0; a < problem.rows(); ++a) {
-      if (two_sided[static_cast<std::size_t>(a)]) {
+      if (two_sided[at(a)]) {
         typename Set::Split split;
         set_.split(a, split);
         if (split.rho > 0) set_.append(a, split, 0);
@@ -37,7 +37,7 @@ class Enumeration {
     set_.fix();
   }
 
-  /// Judges W, then all sets that extend it by rows from `first` on. False to stop.
+  /// Certifies S, then all sets that extend it by rows from `first` on. False to stop.
   bool descend(std::size_t first) {
     if (++steps_ > limit_) return false;
     if (is_right()) return false;
@@ -57,9 +57,9 @@ class Enumeration {
   }
 
   Solution solution() {
-    if (judged_.status != Status::solved && judged_.status != Status::infeasible) judged_ = verdict(nearest_);
-    judged_.steps = steps_;
-    return judged_;
+    if (found_.status != Status::solved && found_.status != Status::infeasible) found_ = verdict(nearest_);
+    found_.steps = steps_;
+    return found_;
   }
 
  private:
@@ -69,7 +69,7 @@ class Enumeration {
     return crossover(problem_, candidate, accuracy_);
   }
 
-  /// Judges W if its point violates little, or if it is the one that violates least so far.
+  /// Certifies S if its point violates little, or if it is the one that violates least so far.
   bool is_right() {
     set_.solve();
     const double scale = set_.scale(), most = std::max(least_, nearly_right) * scale;
@@ -82,15 +82,14 @@ class Enumeration {
       if (!set_.holds(a)) worst = std::max(worst, -slack[a] / length_[a]);
     if (worst > most) return false;
     Vector lambda = Vector::Zero(problem_.rows());
-    for (Index k = 0; k < set_.size(); ++k)
-      lambda[set_.rows()[static_cast<std::size_t>(k)]] = set_.lambda()[k];
+    for (Index k = 0; k < set_.size(); ++k) lambda[set_.rows()[at(k)]] = set_.lambda()[k];
     if (scale > 0 && worst / scale < least_) {
       least_ = worst / scale;
       nearest_ = lambda;
     }
-    if (worst > nearly_right * scale || ++judgements_ > most_judged) return false;
-    judged_ = verdict(lambda);
-    return judged_.status == Status::solved || judged_.status == Status::infeasible;
+    if (worst > nearly_right * scale || ++certified_ > most_certified) return false;
+    found_ = verdict(lambda);
+    return found_.status == Status::solved || found_.status == Status::infeasible;
   }
 
   /// Whether row p and the rows that it depends on are a proof that there is no solution.
@@ -111,8 +110,8 @@ class Enumeration {
   std::vector<Index> rows_;
   double least_ = std::numeric_limits<double>::infinity();
   Vector nearest_, farkas_;
-  Solution judged_;
-  Index steps_ = 0, judgements_ = 0;
+  Solution found_;
+  Index steps_ = 0, certified_ = 0;
 };
 
 }  // namespace

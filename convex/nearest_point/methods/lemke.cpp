@@ -1,3 +1,4 @@
+#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
@@ -25,13 +26,12 @@ struct Pivoting {
 /// The tableau of w - M y - e y0 = c: columns w_1 … w_k, y_1 … y_k, y0, right side.
 class Tableau {
  public:
-  Tableau(const Matrix& M, const Vector& c)
-      : size_(c.size()), T_(size_, 2 * size_ + 2), basic_(static_cast<std::size_t>(size_)) {
+  Tableau(const Matrix& M, const Vector& c) : size_(c.size()), T_(size_, 2 * size_ + 2), basic_(at(size_)) {
     T_.leftCols(size_).setIdentity();
     T_.middleCols(size_, size_) = -M;
     T_.col(2 * size_).setConstant(-1);
     T_.col(2 * size_ + 1) = c;
-    for (Index i = 0; i < size_; ++i) basic_[static_cast<std::size_t>(i)] = i;
+    for (Index i = 0; i < size_; ++i) basic_[at(i)] = i;
   }
 
   Pivoting run(Index limit) {
@@ -47,7 +47,7 @@ class Tableau {
     for (Index i = 0; i < size_; ++i)
       if (row < 0 || is_less(i, row, 1, 1)) row = i;
     for (; found.steps < limit; ++found.steps) {
-      const Index leaving = basic_[static_cast<std::size_t>(row)];
+      const Index leaving = basic_[at(row)];
       pivot(row, entering);
       if (leaving == cover) {
         found.end = End::solution;
@@ -96,7 +96,7 @@ class Tableau {
     const Vector factors = T_.col(column);
     T_.noalias() -= factors * pivot_row;
     T_.row(row) = pivot_row;
-    basic_[static_cast<std::size_t>(row)] = column;
+    basic_[at(row)] = column;
     for (Index i = 0; i < size_; ++i)  // what rounding made negative
       if (T_(i, 2 * size_ + 1) < 0 && T_(i, 2 * size_ + 1) > -1e-13) T_(i, 2 * size_ + 1) = 0;
   }
@@ -104,7 +104,7 @@ class Tableau {
   Vector values() const {
     Vector y = Vector::Zero(size_);
     for (Index i = 0; i < size_; ++i)
-      if (const Index name = basic_[static_cast<std::size_t>(i)]; name >= size_ && name < 2 * size_)
+      if (const Index name = basic_[at(i)]; name >= size_ && name < 2 * size_)
         y[name - size_] = std::max(0.0, T_(i, 2 * size_ + 1));
     return y;
   }
@@ -113,7 +113,7 @@ class Tableau {
     Vector y = Vector::Zero(size_);
     if (entering >= size_ && entering < 2 * size_) y[entering - size_] = 1;
     for (Index i = 0; i < size_; ++i)
-      if (const Index name = basic_[static_cast<std::size_t>(i)]; name >= size_ && name < 2 * size_)
+      if (const Index name = basic_[at(i)]; name >= size_ && name < 2 * size_)
         y[name - size_] = std::max(0.0, -T_(i, entering));
     return y;
   }

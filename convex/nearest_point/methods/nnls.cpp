@@ -1,3 +1,4 @@
+#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"

@@ -7,7 +7,6 @@
 
 #include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
-#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
@@ -17,9 +16,6 @@ namespace {
 /// Of problems too large for dense factors, rows are held as softly as this part of their length squared:
 /// errors along rows that depend on others, which no motion can follow, do not count.
 constexpr double softness = 1e-12;
-
-/// In a block a row this close to the span of the others is looked at alone.
-constexpr double block_dependence = 1e-7;
 
 constexpr int most_climbs = 5;
 
@@ -34,7 +30,7 @@ std::array<Vector, digits + 1> starts(const Vector& size) {
     Index folded = 0;
     for (Index rest = i; rest > 0; rest >>= digits) folded ^= rest;
     for (int k = 0; k < digits; ++k)
-      if (folded >> k & 1) signed_sizes[static_cast<std::size_t>(k + 1)][i] = -size[i];
+      if (folded >> k & 1) signed_sizes[at(k + 1)][i] = -size[i];
   }
   return signed_sizes;
 }
@@ -43,7 +39,7 @@ Vector with_signs(const Vector& size, const Vector& of) {
   return size.binaryExpr(of, [](double r, double x) { return x < 0 ? -r : r; });
 }
 
-/// A dq - U_Wᵀ dlambda = r1, U_W dq = r2, of the rows W that are independent.
+/// A dq - U_Sᵀ dlambda = r1, U_S dq = r2, of the rows S that are independent.
 class HeldEquations {
  public:
   HeldEquations(const NearestPointProblem& problem, const std::vector<Index>& held) : A_(problem.A) {
@@ -80,7 +76,7 @@ class HeldEquations {
     const Vector length = dual_lengths(problem, held);
     Vector theta(static_cast<Index>(held.size()));
     for (Index k = 0; k < theta.size(); ++k) {
-      const double of_row = length[held[static_cast<std::size_t>(k)]];
+      const double of_row = length[held[at(k)]];
       theta[k] = of_row > 0 ? softness * of_row * of_row : 1;
     }
     is_known_ = soft_.emplace(problem).factor(held, theta);

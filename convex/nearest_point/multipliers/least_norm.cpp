@@ -21,11 +21,11 @@ bool least_norm_in_fractions(const Dependence& rows, const std::vector<Index>& n
   RowMatrix U = RowMatrix::Zero(k, k + d);
   U.leftCols(k).setIdentity();
   U.rightCols(d) = rows.T;
-  std::vector<Index> two_sided(static_cast<std::size_t>(k));
+  std::vector<Index> two_sided(at(k));
   std::iota(two_sided.begin(), two_sided.end(), Index{0});
   Vector s = U * start;
   for (Index j = 0; j < k + d; ++j) {
-    if (is_free[static_cast<std::size_t>(names[static_cast<std::size_t>(j)])]) continue;
+    if (is_free[at(names[static_cast<std::size_t>(j)])]) continue;
     U.conservativeResize(U.rows() + 1, k + d);
     U.row(U.rows() - 1) = Vector::Unit(k + d, j).transpose();
     s.conservativeResize(U.rows());
@@ -35,7 +35,7 @@ bool least_norm_in_fractions(const Dependence& rows, const std::vector<Index>& n
                                     ConstraintRows(std::move(U)), std::move(s), std::move(two_sided)};
   const Solution solution = exact_method(problem, {});
   if (solution.status != Status::solved && solution.status != Status::inaccurate) return false;
-  for (Index j = 0; j < k + d; ++j) lambda[names[static_cast<std::size_t>(j)]] = solution.q[j];
+  for (Index j = 0; j < k + d; ++j) lambda[names[at(j)]] = solution.q[j];
   return true;
 }
 
@@ -54,11 +54,10 @@ void take_rows_with_small_coefficients(Dependence& rows, Vector& lambda) {
     if (!(pivot > large) || !std::isfinite(pivot)) return;
     const Vector column = rows.T.col(p);
     const Vector row = rows.T.row(k).transpose() / column[k];
-    Index &leaving = rows.basic[static_cast<std::size_t>(k)],
-          &entering = rows.dependent[static_cast<std::size_t>(p)];
+    Index &leaving = rows.basic[at(k)], &entering = rows.dependent[at(p)];
     const double weight = lambda[leaving] / column[k];
     for (Index i = 0; i < column.size(); ++i)
-      if (i != k) lambda[rows.basic[static_cast<std::size_t>(i)]] -= column[i] * weight;
+      if (i != k) lambda[rows.basic[at(i)]] -= column[i] * weight;
     lambda[leaving] = 0;
     lambda[entering] += weight;
     rows.T -= column * row.transpose();
@@ -75,13 +74,13 @@ bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   std::vector<Index> names = rows.basic;
   names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
   Vector start(k + d);
-  for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
+  for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[at(j)]];
   const auto take = [&](const Vector& best) {
     const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
     for (Index j = 0; j < k + d; ++j) {
-      const Index a = names[static_cast<std::size_t>(j)];
+      const Index a = names[at(j)];
       lambda[a] = std::abs(best[j]) <= noise ? 0 : best[j];
-      if (!is_free[static_cast<std::size_t>(a)]) lambda[a] = std::max(0.0, lambda[a]);
+      if (!is_free[at(a)]) lambda[a] = std::max(0.0, lambda[a]);
     }
   };
   // From here on the d×d matrix below is slower than a few k×k ones: of a thousand rows through one point it
@@ -89,7 +88,7 @@ bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   constexpr Index many = 100;
   if (d > std::max(k, many)) {
     std::vector<bool> free;
-    for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
+    for (Index a : names) free.push_back(is_free[at(a)]);
     if (Vector best = start; least_norm_by_newton(rows.T, free, best)) {
       take(best);
       return true;
@@ -109,7 +108,7 @@ bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   }
   std::vector<Index> signed_rows;
   for (Index j = 0; j < k + d; ++j)
-    if (!is_free[static_cast<std::size_t>(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);
+    if (!is_free[at(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);
   const ConstraintRows all{RowMatrix(N)};
   NearestPointProblem problem{
       Metric::dense(N.transpose() * N), -N.transpose() * start, all.select(signed_rows), Vector(), {}};
@@ -123,8 +122,8 @@ bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
 }
 
 /// What lambda misses of a reaction, put on the rows that others depend on.
-bool put_missing_force_on_basis(const NearestPointProblem& problem, const Vector& reaction,
-                                const std::vector<Dependence>& groups, Vector& lambda) {
+bool put_missing_reaction_on_basis(const NearestPointProblem& problem, const Vector& reaction,
+                                   const std::vector<Dependence>& groups, Vector& lambda) {
   std::vector<Index> basic;
   for (const Dependence& rows : groups) basic.insert(basic.end(), rows.basic.begin(), rows.basic.end());
   const auto k = static_cast<Index>(basic.size());
@@ -169,7 +168,7 @@ bool least_norm(const NearestPointProblem& problem, const Solution& solution, st
   for (int i = 0; i < most_refinements; ++i) {
     if (left <= roundings * std::max(solution.force_norm, solution.acceleration_norm)) break;
     const Vector before = lambda;
-    if (!put_missing_force_on_basis(problem, reaction, groups, lambda)) break;
+    if (!put_missing_reaction_on_basis(problem, reaction, groups, lambda)) break;
     const bool is_found = std::all_of(groups.begin(), groups.end(), [&](const Dependence& rows) {
       return least_norm_of_group(rows, is_free, lambda);
     });

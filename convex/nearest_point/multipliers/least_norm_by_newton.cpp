@@ -33,7 +33,7 @@ bool least_norm_by_newton(const Matrix& T, const std::vector<bool>& is_free, Vec
   const Vector r = E.transpose() * start;
   const auto positive = [&](Vector lambda) {
     for (Index j = 0; j < k + d; ++j)
-      if (!is_free[static_cast<std::size_t>(j)]) lambda[j] = std::max(0.0, lambda[j]);
+      if (!is_free[at(j)]) lambda[j] = std::max(0.0, lambda[j]);
     return lambda;
   };
   const auto value = [&](const Vector& y, const Vector& lambda) {
@@ -50,7 +50,7 @@ bool least_norm_by_newton(const Matrix& T, const std::vector<bool>& is_free, Vec
     }
     Matrix loaded = E;
     for (Index j = 0; j < k + d; ++j)
-      if (step > 0 && !is_free[static_cast<std::size_t>(j)] && !(lambda[j] > 0)) loaded.row(j).setZero();
+      if (step > 0 && !is_free[at(j)] && !(lambda[j] > 0)) loaded.row(j).setZero();
     Matrix H = loaded.transpose() * loaded;
     H.diagonal().array() += softness_of_columns;
     const linear_algebra::Cholesky factor(H);

@@ -98,7 +98,6 @@ class MultiplierTableau {
     Number step{};
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  static std::size_t at(Index a) { return static_cast<std::size_t>(a); }
   bool is_free(Index name) const { return free_[at(name)]; }
   static bool is_zero(const Number& x) {
     if constexpr (is_rounded)

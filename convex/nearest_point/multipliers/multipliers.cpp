@@ -9,8 +9,8 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
-#include "convex/nearest_point/methods/crossover.hpp"
-#include "convex/nearest_point/multipliers/coupled_forces.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/multipliers/coupled_pushes.hpp"
 #include "convex/nearest_point/multipliers/least_norm.hpp"
 #include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
 #include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
@@ -48,7 +48,7 @@ class MultiplierPolyhedron {
     std::vector<Index> places(names.size());
     std::iota(places.begin(), places.end(), Index{0});
     std::vector<bool> free;
-    for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
+    for (Index a : names) free.push_back(is_free[at(a)]);
     const auto end_of_basic = places.begin() + static_cast<std::ptrdiff_t>(k);
     const Vector of_basic = length(rows.basic), of_dependent = length(rows.dependent),
                  value = lambda(rows.basic).cwiseProduct(of_basic);
@@ -74,8 +74,7 @@ Vector signs_of(const Vector& lambda, const Vector& length, const Vector& roundi
                 const std::vector<bool>& is_free) {
   Vector signs = Vector::Zero(lambda.size());
   for (Index a = 0; a < lambda.size(); ++a)
-    if (!is_free[static_cast<std::size_t>(a)] && lambda[a] * length[a] > rounding[a])
-      signs[a] = 1 / length[a];
+    if (!is_free[at(a)] && lambda[a] * length[a] > rounding[a]) signs[a] = 1 / length[a];
   return signs;
 }
 
@@ -98,7 +97,8 @@ double length_beside_held_rows(const NearestPointProblem& problem, const Solutio
 
 namespace {
 
-/// How far, in the metric, the radii of the rows held may move the point, where these are far from dependent.
+/// How far, in the metric, the radii of the rows of the working set may move the point, where these are far
+/// from dependent.
 double moved_by_radii(const NearestPointProblem& problem, const Solution& solution) {
   if (!problem.radii || problem.radii->is_zero()) return 0;
   const Vector length = dual_lengths(problem, solution.basis);
@@ -132,15 +132,11 @@ std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution
   const std::vector<bool> basis = marked(problem.rows(), solution.basis);
   std::vector<Index> candidates;
   for (Index a = 0; a < problem.rows(); ++a)
-    if (!two_sided[static_cast<std::size_t>(a)] && !basis[static_cast<std::size_t>(a)] &&
-        !(solution.slack[a] <= 0))
-      candidates.push_back(a);
+    if (!two_sided[at(a)] && !basis[at(a)] && !(solution.slack[a] <= 0)) candidates.push_back(a);
   const Vector length = dual_lengths(problem, candidates);
   std::vector<Index> tight;
   for (Index a = 0; a < problem.rows(); ++a)
-    if (two_sided[static_cast<std::size_t>(a)] || basis[static_cast<std::size_t>(a)] ||
-        is_small(a, length[a]))
-      tight.push_back(a);
+    if (two_sided[at(a)] || basis[at(a)] || is_small(a, length[a])) tight.push_back(a);
   return tight;
 }
 
@@ -160,7 +156,7 @@ Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>&
   NearestPointProblem held{problem.A, problem.z, problem.U.select(tight), problem.s(tight), {}};
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
   for (std::size_t k = 0; k < tight.size(); ++k)
-    if (is_free[static_cast<std::size_t>(tight[k])]) held.two_sided.push_back(static_cast<Index>(k));
+    if (is_free[at(tight[k])]) held.two_sided.push_back(static_cast<Index>(k));
   held.radii = select(problem.radii, tight);
   if (!is_dense_size(held)) return solution;
   const Solution vertex = active_set(held, {});
@@ -170,7 +166,7 @@ Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>&
   solution.lambda.setZero();
   solution.lambda(tight) = vertex.lambda;
   solution.basis.clear();
-  for (const Index row : vertex.basis) solution.basis.push_back(tight[static_cast<std::size_t>(row)]);
+  for (const Index row : vertex.basis) solution.basis.push_back(tight[at(row)]);
   return solution;
 }
 
@@ -215,14 +211,12 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   }
   found.least_norm = solution.lambda;
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
-  std::vector<Interval> ranges(static_cast<std::size_t>(problem.rows()));
-  for (Index a = 0; a < problem.rows(); ++a)
-    ranges[static_cast<std::size_t>(a)] = {solution.lambda[a], solution.lambda[a]};
+  std::vector<Interval> ranges(at(problem.rows()));
+  for (Index a = 0; a < problem.rows(); ++a) ranges[at(a)] = {solution.lambda[a], solution.lambda[a]};
 
   if (!groups) {
     std::vector<Index> loaded, others;
-    for (Index a : found.tight)
-      (solution.lambda[a] != 0 || is_free[static_cast<std::size_t>(a)] ? loaded : others).push_back(a);
+    for (Index a : found.tight) (solution.lambda[a] != 0 || is_free[at(a)] ? loaded : others).push_back(a);
     found.unique = sparse_rows_are_independent(problem, loaded) && can_open(problem, loaded, others);
     if (found.unique)
       found.ranges = std::move(ranges);
@@ -241,10 +235,10 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   // They are unique when every dependent row keeps its multiplier 0.
   Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
   length = (length.array() > 0).select(length, 1);
-  const CoupledForces forces = coupled_forces(problem, solution, solution.lambda, found.tight, length);
+  const CoupledPushes coupled = coupled_pushes(problem, solution, solution.lambda, found.tight, length);
   // Where z is rounded, so are the multipliers that hold against it.
   constexpr double roundings_of_multipliers = 64 * unit_roundoff;
-  const Vector rounding = forces.pushes * (problem.radii ? tolerance : roundings_of_multipliers);
+  const Vector rounding = coupled.pushes * (problem.radii ? tolerance : roundings_of_multipliers);
   const Vector signs = signs_of(solution.lambda, length, rounding, is_free);
   std::vector<Dependence> loose;
   for (const Dependence& rows : *groups) {
@@ -261,8 +255,8 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
     found.unique = false;
     if (want_ranges) {
       MultiplierPolyhedron polyhedron(rows, solution.lambda, length, is_free);
-      for (Index a : rows.dependent) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
-      for (Index a : rows.basic) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
+      for (Index a : rows.dependent) ranges[at(a)] = polyhedron.range(a);
+      for (Index a : rows.basic) ranges[at(a)] = polyhedron.range(a);
       found.is_in_doubt |= are_exact && polyhedron.is_in_doubt();
     }
     found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -277,11 +271,11 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
     return std::isnan(range.low) || std::isnan(range.high);
   });
   // What rounding leaves of rows that hold against nothing is no freedom.
-  const double no_force = problem.radii ? zero_where_z_is_rounded : zero_in_doubles;
+  const double no_push = problem.radii ? zero_where_z_is_rounded : zero_in_doubles;
   if (want_ranges && are_found && !found.unique)
     found.unique = std::all_of(found.tight.begin(), found.tight.end(), [&](Index a) {
-      const Interval& range = ranges[static_cast<std::size_t>(a)];
-      return range.low == range.high || (range.high - range.low) * length[a] <= no_force * forces.others[a];
+      const Interval& range = ranges[at(a)];
+      return range.low == range.high || (range.high - range.low) * length[a] <= no_push * coupled.others[a];
     });
   if ((want_ranges && are_found) || found.unique) found.ranges = std::move(ranges);
   return found;
@@ -296,8 +290,7 @@ std::vector<Index> rows_that_hold(const NearestPointProblem& problem, const Solu
   const Vector length = dual_lengths(problem, tight), size = solution.q.cwiseAbs();
   std::vector<Index> rows;
   for (Index a : tight)
-    if (two_sided[static_cast<std::size_t>(a)] || basis[static_cast<std::size_t>(a)] ||
-        solution.lambda[a] != 0 ||
+    if (two_sided[at(a)] || basis[at(a)] || solution.lambda[a] != 0 ||
         solution.slack[a] <= length[a] * solution.error_bound +
                                  roundings * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, size)))
       rows.push_back(a);
@@ -319,7 +312,7 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
   const std::vector<Index> holding = rows_that_hold(problem, given, found.tight);
   const std::vector<bool> holds = marked(problem.rows(), holding);
   if (std::any_of(found.tight.begin(), found.tight.end(),
-                  [&](Index a) { return !holds[static_cast<std::size_t>(a)] && found.least_norm[a] != 0; })) {
+                  [&](Index a) { return !holds[at(a)] && found.least_norm[a] != 0; })) {
     std::vector<Index> tight = std::move(found.tight);
     found = multipliers_of(problem, given, holding, tolerance, want_ranges);
     found.tight = std::move(tight);

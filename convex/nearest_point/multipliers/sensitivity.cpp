@@ -24,7 +24,7 @@ std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Solution
       multipliers.least_norm.cwiseAbs().cwiseProduct(problem.U.lengths(problem.A.diagonal().cwiseInverse()));
   const double largest = std::max(solution.force_norm, push.size() > 0 ? push.maxCoeff() : 0);
   for (Index a = 0; a < push.size(); ++a)
-    if (push[a] > weak * largest) loaded[static_cast<std::size_t>(a)] = true;
+    if (push[a] > weak * largest) loaded[at(a)] = true;
   return loaded;
 }
 
@@ -39,7 +39,7 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
   if (!(push > 0)) return face.two_sided;
   NearestPointProblem pulled = face;
   constexpr int most_trials = 8;
-  constexpr double factor = 32, touched = 1e-9, balanced = 1e-9;
+  constexpr double factor = 32, tight = 1e-9, balanced = 1e-9;
   double t = (1 + face.s.cwiseAbs().maxCoeff() + face.A.dual_norm(face.z)) / push;
   for (int trial = 0; trial < most_trials; ++trial, t *= factor) {
     pulled.z = face.z - t * R;
@@ -48,9 +48,9 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
     const Vector lengths = face.U.lengths(face.A.diagonal().cwiseInverse());
     std::vector<Index> rows, free;
     for (Index a = 0; a < face.rows(); ++a) {
-      const bool held = two_sided[static_cast<std::size_t>(a)];
+      const bool held = two_sided[at(a)];
       const double scale = std::abs(face.s[a]) + lengths[a] * moved.acceleration_norm;
-      if (!held && !(moved.slack[a] <= touched * scale)) continue;
+      if (!held && !(moved.slack[a] <= tight * scale)) continue;
       if (held) free.push_back(static_cast<Index>(rows.size()));
       rows.push_back(a);
     }
@@ -60,8 +60,7 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
     std::vector<Index> loaded;
     const double largest = found.lambda.size() > 0 ? found.lambda.cwiseAbs().maxCoeff() : 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (two_sided[static_cast<std::size_t>(rows[k])] ||
-          found.lambda[static_cast<Index>(k)] > weak * largest)
+      if (two_sided[at(rows[k])] || found.lambda[static_cast<Index>(k)] > weak * largest)
         loaded.push_back(rows[k]);
     return loaded;
   }
@@ -85,7 +84,7 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
   if (face.radii) face.radii->s.setZero();
   for (std::size_t k = 0; k < tight.size(); ++k) {
     face.s[static_cast<Index>(k)] = ds[tight[k]];
-    if (held[static_cast<std::size_t>(tight[k])]) face.two_sided.push_back(static_cast<Index>(k));
+    if (held[at(tight[k])]) face.two_sided.push_back(static_cast<Index>(k));
   }
   if (choose) {
     const auto rows = loaded_by_change(face, problem.U.transpose_times(multipliers.least_norm));
@@ -111,7 +110,7 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
                           two_sided = marked(m, problem.two_sided);
   std::vector<Index> held;
   for (Index a : multipliers.tight)  // independent, for the multipliers are unique
-    if (loaded[static_cast<std::size_t>(a)]) held.push_back(a);
+    if (loaded[at(a)]) held.push_back(a);
   const auto k = static_cast<Index>(held.size());
   Matrix Q(problem.dimension(), 0), R_inverse(0, 0);
   if (k > 0) {
@@ -123,21 +122,20 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
   Vector found = Vector::Constant(m, infinity);
   for (Index r = 0; r < k; ++r) {
     // dlambda = (VᵀV)⁻¹Vᵀ F⁻¹dz, whose row r has the length |R⁻¹|_r.
-    const Index a = held[static_cast<std::size_t>(r)];
-    if (!two_sided[static_cast<std::size_t>(a)])
-      found[a] = std::max(0.0, multipliers.least_norm[a]) / R_inverse.row(r).norm();
+    const Index a = held[at(r)];
+    if (!two_sided[at(a)]) found[a] = std::max(0.0, multipliers.least_norm[a]) / R_inverse.row(r).norm();
   }
   const std::vector<bool> is_tight = marked(m, multipliers.tight), is_held = marked(m, held);
   std::vector<Index> others;
   for (Index a = 0; a < m; ++a)
-    if (!is_held[static_cast<std::size_t>(a)] && !two_sided[static_cast<std::size_t>(a)]) others.push_back(a);
+    if (!is_held[at(a)] && !two_sided[at(a)]) others.push_back(a);
   const Matrix V = whitened_rows(problem, others);
   const Matrix free = V - Q * (Q.transpose() * V);
   for (std::size_t j = 0; j < others.size(); ++j) {
     const Index a = others[j];
     const double reach = free.col(static_cast<Index>(j)).norm(), length = V.col(static_cast<Index>(j)).norm();
     const bool reachable = reach > 64 * unit_roundoff * static_cast<double>(problem.dimension()) * length;
-    if (is_tight[static_cast<std::size_t>(a)])
+    if (is_tight[at(a)])
       found[a] = 0;
     else if (reachable)
       found[a] = std::max(0.0, solution.slack[a]) / reach;

@@ -59,7 +59,7 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Index> signed_rows;
   for (Index j = 0; j < k; ++j) {
-    const Index a = tight[static_cast<std::size_t>(j)];
+    const Index a = tight[at(j)];
     problem.U.for_each_entry(a, [&](Index i, double value) {
       entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
     });
@@ -67,7 +67,7 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   }
   const Index m = n + static_cast<Index>(signed_rows.size());
   Vector start(k), s = Vector::Zero(m);
-  for (Index j = 0; j < k; ++j) start[j] = lambda[tight[static_cast<std::size_t>(j)]];
+  for (Index j = 0; j < k; ++j) start[j] = lambda[tight[at(j)]];
   if (!start.allFinite()) return false;  // a multiplier is beyond doubles
   for (std::size_t j = 0; j < signed_rows.size(); ++j) {
     entries.emplace_back(static_cast<int>(n) + static_cast<int>(j), static_cast<int>(signed_rows[j]), 1.0);
@@ -75,7 +75,7 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   }
   SparseRows U(m, k);
   U.setFromTriplets(entries.begin(), entries.end());
-  std::vector<Index> equations(static_cast<std::size_t>(n));
+  std::vector<Index> equations(at(n));
   std::iota(equations.begin(), equations.end(), Index{0});
   const Solution found =
       sparse_active_set({Metric::identity(k), -start, ConstraintRows(std::move(U)), s, std::move(equations)});
@@ -83,10 +83,10 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
   for (Index j = 0; j < k; ++j) {
     const double best = start[j] + found.q[j];
-    lambda[tight[static_cast<std::size_t>(j)]] = std::abs(best) <= noise ? 0 : best;
+    lambda[tight[at(j)]] = std::abs(best) <= noise ? 0 : best;
   }
   for (Index j : signed_rows) {
-    double& value = lambda[tight[static_cast<std::size_t>(j)]];
+    double& value = lambda[tight[at(j)]];
     value = std::max(0.0, value);
   }
   return true;

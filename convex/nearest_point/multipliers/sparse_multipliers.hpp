@@ -12,8 +12,8 @@ bool sparse_rows_are_independent(const NearestPointProblem&, const std::vector<I
 
 /// Whether some direction d with u_a·d = 0 on the rows `held` opens all the others, u_b·d > 0. By the
 /// theorem of Motzkin (1936) there is none exactly where Σ mu_a u_a + Σ mu_b u_b = 0 for some mu_b >= 0 that
-/// are not all 0, of any sign on the rows held: then multipliers 0 of the others are not the only ones. It is
-/// the nearest point to 0 with u_b·d >= ||u_b||.
+/// are not all 0, of any sign on the working set: then multipliers 0 of the others are not the only ones. It
+/// is the nearest point to 0 with u_b·d >= ||u_b||.
 bool can_open(const NearestPointProblem&, const std::vector<Index>& held, const std::vector<Index>& opening);
 
 /// The multipliers of least norm with the same Uᵀlambda on the tight rows, lambda_a >= 0 on the one-sided

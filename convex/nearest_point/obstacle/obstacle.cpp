@@ -117,9 +117,9 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
 /// Decides which free points touch their bound where what is missing in q could hide that: points tied to
 /// each other through free ones, and kept from the rest by points held, are put on their bounds where these
 /// are close and verified without rounding. False when that does not verify.
-class TouchedPoints {
+class DegeneratePoints {
  public:
-  TouchedPoints(const ObstacleGrid& grid, ObstaclePoint& point) : grid_(grid), A_(grid.A), point_(point) {
+  DegeneratePoints(const ObstacleGrid& grid, ObstaclePoint& point) : grid_(grid), A_(grid.A), point_(point) {
     // |e_k| <= ||e||_A / sqrt(least eigenvalue of A), which is that of the whole rectangle.
     const double pi = std::acos(-1.0);
     const auto bend = [&](Index points) { return std::cos(pi / static_cast<double>(points + 1)); };
@@ -137,8 +137,7 @@ class TouchedPoints {
     if (close.empty()) return true;
     seen_.assign(static_cast<std::size_t>(A_.size()), true);
     for (Index j = 0; j < A_.height; ++j)
-      for (Index k = A_.at(0, j); k < A_.at(0, j) + A_.width; ++k)
-        seen_[static_cast<std::size_t>(k)] = !is_free(k);
+      for (Index k = A_.at(0, j); k < A_.at(0, j) + A_.width; ++k) seen_[at(k)] = !is_free(k);
     std::vector<Index> tied;
     for (Index k : close) gather(k, tied);
     for (Index k : close) put(k, grid_.lower[k]);
@@ -161,8 +160,8 @@ class TouchedPoints {
   void gather(Index first, std::vector<Index>& tied) {
     const std::size_t begin = tied.size();
     const auto meet = [&](Index k) {
-      if (seen_[static_cast<std::size_t>(k)]) return;
-      seen_[static_cast<std::size_t>(k)] = true;
+      if (seen_[at(k)]) return;
+      seen_[at(k)] = true;
       tied.push_back(k);
     };
     meet(first);
@@ -249,7 +248,7 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   ObstaclePoint point =
       solve_obstacle_grid(*grid, multigrid, [](Index steps) { SolveWatch::tell("obstacle", steps); });
   if (!point.ended) return std::nullopt;
-  const bool decided = TouchedPoints(*grid, point).decide();
+  const bool decided = DegeneratePoints(*grid, point).decide();
   const Index n = problem.dimension();
   GridPlace place(grid->A);
   Solution found;
@@ -287,7 +286,7 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   found.rounding = std::sqrt(2 * grid->A.d * point.q.lo.squaredNorm());
   found.error_bound = 2 * point.missing + found.rounding;
   found.status = found.is_within(accuracy) && decided ? Status::solved : Status::inaccurate;
-  if (!decided) found.undecided = open_question::touched;
+  if (!decided) found.undecided = open_question::degenerate_rows;
   found.model.islands = {{found.method, n, problem.rows(), 0, 60.0 * static_cast<double>(point.steps * n),
                           6.0 * static_cast<double>(n)}};
   return found;

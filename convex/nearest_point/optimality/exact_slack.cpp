@@ -85,9 +85,9 @@ bool is_plainly_off(const NearestPointProblem& problem, Index a, const Point& q)
 SlackOnEdge::SlackOnEdge(const NearestPointProblem& problem, const double* row_scale)
     : problem_(problem), row_scale_(row_scale) {
   const Index room = std::min(problem.dimension(), problem.rows());
-  rows_.resize(static_cast<std::size_t>(room));
-  coefficients_.resize(static_cast<std::size_t>(room));
-  side_by_side_.resize(static_cast<std::size_t>(9 * room + 8 * problem.dimension()));
+  rows_.resize(at(room));
+  coefficients_.resize(at(room));
+  side_by_side_.resize(at(9 * room + 8 * problem.dimension()));
   if (problem.U.is_sparse() || problem.rows() == 0) return;
   rows_on_grid_ = is_on_some_grid(problem.U.dense().size(), problem.U.dense().data());
 }
@@ -151,7 +151,7 @@ std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count
     c[k] = nearest_whole(c[k] * whole);
     sum += std::abs(c[k]);
   }
-  count_ = static_cast<std::size_t>(terms);
+  count_ = at(terms);
   sum_ = sum;
   if (!cancels(p, whole)) return std::nullopt;
   return slack_of_loads(p, whole);
@@ -197,7 +197,7 @@ void SlackOnEdge::slacks(std::span<const Index> rows, const double* X, const Ind
 }
 
 bool keeps_rows(const NearestPointProblem& problem, const Point& q, std::span<const Index> held,
-                std::span<const Index> touched, double* slacks) {
+                std::span<const Index> degenerate, double* slacks) {
   const auto is_kept = [&](Index a, double slack) {
     return slack == 0 || (slack > 0 && !problem.is_two_sided(a));
   };
@@ -215,15 +215,15 @@ bool keeps_rows(const NearestPointProblem& problem, const Point& q, std::span<co
     return (problem.U.is_sparse() || at_rest || !is_plainly_off(problem, a, q)) && slack_of(a) == 0;
   };
   return std::all_of(held.begin(), held.end(), holds) &&
-         std::all_of(touched.begin(), touched.end(),
+         std::all_of(degenerate.begin(), degenerate.end(),
                      [&](Index a) { return is_kept(a, *slacks++ = slack_of(a)); });
 }
 
 std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const Point& q,
-                                     std::span<const Index> held, std::span<const Index> touched) {
-  Vector slacks(static_cast<Index>(touched.size()));
-  return keeps_rows(problem, q, held, touched, slacks.data()) ? std::optional(std::move(slacks))
-                                                              : std::nullopt;
+                                     std::span<const Index> held, std::span<const Index> degenerate) {
+  Vector slacks(static_cast<Index>(degenerate.size()));
+  return keeps_rows(problem, q, held, degenerate, slacks.data()) ? std::optional(std::move(slacks))
+                                                                 : std::nullopt;
 }
 
 double quotient_with_sign(const ExactSum& sum, double divisor) {

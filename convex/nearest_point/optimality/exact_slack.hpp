@@ -10,7 +10,7 @@
 /// Signs of slacks without rounding, for rows whose slack twice the working precision cannot tell from zero.
 namespace convex::inline optimality {
 
-/// Slacks where rows W hold with equality, without rounding.
+/// Slacks where rows S hold with equality, without rounding.
 class SlackOnEdge {
  public:
   /// row_scale: ||u_a||_(D⁻¹), D the diagonal of A: m. Both are referred to.
@@ -23,7 +23,7 @@ class SlackOnEdge {
   /// `largest_denominator` that `coefficients` are close to: then not one bit is left over.
   std::optional<double> slack(Index p, const Index* held, Index count, const double* coefficients);
   /// The same for up to eight rows of a dense U, which are also side by side in X; coefficients: eight for
-  /// each row held.
+  /// each row of the working set.
   void slacks(std::span<const Index> rows, const double* X, const Index* held, Index count,
               const double* coefficients, std::optional<double>* into);
 
@@ -44,16 +44,17 @@ class SlackOnEdge {
 /// Doubles q, of which no copy is made.
 using Point = Eigen::Ref<const Vector>;
 
-/// Whether q is the point of the rows `held` and keeps those `touched`, all without rounding: the rows held
-/// and two-sided ones have a slack of 0, the others none below. Their slacks at q then, each the double
-/// nearest to its own, one for each row touched. With multipliers lambda >= 0 of the rows held, ||q - q*||_A
+/// Whether q is the point of the rows `held` and keeps those `degenerate`, all without rounding: the working
+/// set and two-sided ones have a slack of 0, the others none below. Their slacks at q then, each the double
+/// nearest to its own, one for each of the latter. With multipliers lambda >= 0 of the working set, ||q -
+/// q*||_A
 /// <=
 /// ||Aq - z - Uᵀlambda||_(A⁻¹), q* the solution.
 bool keeps_rows(const NearestPointProblem&, const Point& q, std::span<const Index> held,
-                std::span<const Index> touched, double* slacks);
+                std::span<const Index> degenerate, double* slacks);
 /// The slacks; none where q does not keep the rows.
 std::optional<Vector> slacks_if_kept(const NearestPointProblem&, const Point& q, std::span<const Index> held,
-                                     std::span<const Index> touched);
+                                     std::span<const Index> degenerate);
 
 /// sum / divisor, rounded, and a double of its sign where that is 0 but the sum is not.
 double quotient_with_sign(const ExactSum& sum, double divisor);

@@ -28,7 +28,7 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
   double terms = 0, magnitude = 0, unsure = 0;  // unsure: what radii may make of the gap
   for (Index a = 0; a < problem.rows(); ++a) {
     if (w[a] == 0) continue;
-    if (w[a] < 0 && !two_sided[static_cast<std::size_t>(a)]) return false;
+    if (w[a] < 0 && !two_sided[at(a)]) return false;
     problem.U.add_multiple(a, {w[a], 0}, combination);
     gap = add(gap, two_product(w[a], problem.s[a]));
     terms += std::abs(w[a]) * largest_entry(problem.U, a);

@@ -22,14 +22,11 @@ std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const V
   if (problem.rows() == 0 || !weight.allFinite() || !(weight.maxCoeff() > 0)) return std::nullopt;
   std::vector<Index> rows;
   for (Index a = 0; a < problem.rows(); ++a)
-    if (weight[a] > support * weight.maxCoeff() && (w[a] > 0 || two_sided[static_cast<std::size_t>(a)]))
-      rows.push_back(a);
+    if (weight[a] > support * weight.maxCoeff() && (w[a] > 0 || two_sided[at(a)])) rows.push_back(a);
   std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return weight[a] > weight[b]; });
   Set set(problem);
   Set::Split split;
-  const auto one_sided = [&](Index k) {
-    return !two_sided[static_cast<std::size_t>(set.rows()[static_cast<std::size_t>(k)])];
-  };
+  const auto one_sided = [&](Index k) { return !two_sided[at(set.rows()[static_cast<std::size_t>(k)])]; };
   for (Index p : rows) {
     double rest = w[p];
     bool gone = false;
@@ -39,7 +36,7 @@ std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const V
       // The weights move by sign (1, -r); the first one-sided weight that comes to 0 stops them.
       double step = std::numeric_limits<double>::infinity();
       Index blocking = -1;
-      if (sign < 0 && !two_sided[static_cast<std::size_t>(p)]) step = rest;
+      if (sign < 0 && !two_sided[at(p)]) step = rest;
       for (Index k = 0; k < set.size(); ++k) {
         const double change = -sign * split.coefficients[k];
         if (!one_sided(k) || change >= 0 || is_noise(set, k, split)) continue;

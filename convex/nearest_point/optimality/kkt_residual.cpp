@@ -37,6 +37,14 @@ Vector stationarity_residual(const NearestPointProblem& problem, const DoubleDou
   return sum.value();
 }
 
+Vector stationarity_residual(const NearestPointProblem& problem, const DoubleDoubleVector& q,
+                             const Vector& lambda) {
+  std::vector<Index> loaded;
+  for (Index a = 0; a < lambda.size(); ++a)
+    if (lambda[a] != 0) loaded.push_back(a);
+  return stationarity_residual(problem, q, loaded, DoubleDoubleVector(lambda(loaded)));
+}
+
 DoubleDouble slack(const NearestPointProblem& problem, Index a, const DoubleDoubleVector& q) {
   return add(problem.U.dot(a, q), {-problem.s[a], 0});
 }

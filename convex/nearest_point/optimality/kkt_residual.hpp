@@ -12,6 +12,9 @@ namespace convex::inline optimality {
 Vector stationarity_residual(const NearestPointProblem&, const DoubleDoubleVector& q,
                              const std::vector<Index>& rows, const DoubleDoubleVector& lambda);
 
+/// The same over all rows.
+Vector stationarity_residual(const NearestPointProblem&, const DoubleDoubleVector& q, const Vector& lambda);
+
 /// u_a·q - s_a in twice the working precision.
 DoubleDouble slack(const NearestPointProblem&, Index a, const DoubleDoubleVector& q);
 

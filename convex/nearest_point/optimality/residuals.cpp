@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/infinity.hpp"
+#include "convex/nearest_point/optimality/gathered_residuals.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/sparse_residuals.hpp"
 #include "convex/zero_tolerances.hpp"
@@ -16,16 +17,6 @@ double length_at_any_scale(const ConstraintRows& U, Index a, const Vector& d) {
   std::vector<double> parts;
   U.for_each_entry(a, [&](Index i, double u) { parts.push_back(u / std::sqrt(d[i])); });
   return Eigen::Map<const Vector>(parts.data(), static_cast<Index>(parts.size())).stableNorm();
-}
-
-/// ||Aq - z - Uᵀlambda||_(A⁻¹).
-double unbalanced(const NearestPointProblem& problem, const DoubleDoubleVector& q, const Vector& lambda) {
-  std::vector<Index> loaded;
-  for (Index a = 0; a < lambda.size(); ++a)
-    if (lambda[a] != 0) loaded.push_back(a);
-  DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
-  for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
-  return problem.A.dual_norm(stationarity_residual(problem, q, loaded, weights));
 }
 
 }  // namespace
@@ -83,22 +74,22 @@ bool violates_beyond_bound(const Solution& found) {
            2 * found.error_bound + roundings * scale);
 }
 
-double bound_by_gap(const NearestPointProblem& problem, const Solution& judged) {
-  if (judged.residuals.feasibility != 0 || judged.slack.size() != problem.rows()) return infinity;
+double bound_by_gap(const NearestPointProblem& problem, const Solution& answer) {
+  if (answer.residuals.feasibility != 0 || answer.slack.size() != problem.rows()) return infinity;
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
-  const DoubleDoubleVector q(judged.q);
-  const Vector magnitude = judged.q.cwiseAbs();
+  const DoubleDoubleVector q(answer.q);
+  const Vector magnitude = answer.q.cwiseAbs();
   for (Index a = 0; a < problem.rows(); ++a) {
-    const bool is_equation = two_sided[static_cast<std::size_t>(a)];
-    if (judged.lambda[a] < 0 && !is_equation) return infinity;
+    const bool is_equation = two_sided[at(a)];
+    if (answer.lambda[a] < 0 && !is_equation) return infinity;
     // A relative residual may be 0 where its scale is no double.
     const double far = near_zero * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude));
-    if (!is_equation && judged.slack[a] > far) continue;
+    if (!is_equation && answer.slack[a] > far) continue;
     const double rest = slack(problem, a, q).value();
     if (is_equation ? rest != 0 : !(rest >= 0)) return infinity;
   }
-  const double scale = std::max(judged.acceleration_norm, judged.force_norm);
-  return (std::sqrt(2.0) * judged.residuals.duality_gap + unit_roundoff) * scale;
+  const double scale = std::max(answer.acceleration_norm, answer.force_norm);
+  return (std::sqrt(2.0) * answer.residuals.duality_gap + unit_roundoff) * scale;
 }
 
 double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
@@ -115,13 +106,13 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
   return residuals(problem, found);
 }
 
-Residuals residuals(const NearestPointProblem& problem, const Solution& judged, KnownParts known) {
+Residuals residuals(const NearestPointProblem& problem, const Solution& answer, KnownParts known) {
   const bool plain = problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
-  if (plain && problem.U.is_sparse()) return sparse_residuals(problem, judged);
-  const Vector &q = judged.q, &lambda = judged.lambda;
+  if (plain && problem.U.is_sparse()) return sparse_residuals(problem, answer);
+  const Vector &q = answer.q, &lambda = answer.lambda;
   Vector& length = known.length;
   if (length.size() == 0) length = Vector::Zero(problem.rows());
-  Vector rest = judged.slack;
+  Vector rest = answer.slack;
   const Index m = problem.rows();
   const std::vector<bool> two_sided = marked(m, problem.two_sided);
 
@@ -130,7 +121,7 @@ Residuals residuals(const NearestPointProblem& problem, const Solution& judged, 
   const Vector magnitude = q.cwiseAbs();
   std::vector<Index> matter, unknown;
   for (Index a = 0; a < m; ++a) {
-    const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
+    const bool is_two_sided = two_sided[at(a)];
     if (rest[a] > 0 && !is_two_sided && lambda[a] == 0) {
       const double s = std::abs(problem.s[a]);
       if (known.magnitude.size() > 0 && rest[a] > near_zero * (s + known.magnitude[a])) continue;
@@ -143,31 +134,14 @@ Residuals residuals(const NearestPointProblem& problem, const Solution& judged, 
   }
   if (!unknown.empty()) length += dual_lengths(problem, unknown);
 
-  const double stationarity = known.stationarity ? *known.stationarity : unbalanced(problem, point, lambda);
-  const double q_norm = judged.acceleration_norm, scale = std::max(q_norm, judged.force_norm);
-  const double largest = m > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
-
-  Residuals found;
-  double gap = 0.5 * stationarity * stationarity;
-  for (Index a : matter) {
-    const double row_scale = std::abs(problem.s[a]) + length[a] * q_norm;
-    const double violation =
-        two_sided[static_cast<std::size_t>(a)] ? std::abs(rest[a]) : std::max(0.0, -rest[a]);
-    gap += lambda[a] * rest[a];
-    // A violation on a row of scale 0 (at rest, s = 0) is relative to what z could do to it instead.
-    const double over = row_scale > 0 ? row_scale : length[a] * scale;
-    if (over > 0) {
-      found.feasibility = std::max(found.feasibility, violation / over);
-      if (largest > 0)
-        found.complementarity =
-            std::max(found.complementarity, std::abs(lambda[a] / largest * rest[a]) / over);
-    }
-  }
-  if (scale > 0) {
-    found.stationarity = stationarity / scale;
-    found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale;
-  }
-  return found;
+  const double stationarity = known.stationarity
+                                  ? *known.stationarity
+                                  : problem.A.dual_norm(stationarity_residual(problem, point, lambda));
+  GatheredResiduals found(stationarity, answer.acceleration_norm,
+                          std::max(answer.acceleration_norm, answer.force_norm),
+                          m > 0 ? lambda.cwiseAbs().maxCoeff() : 0);
+  for (Index a : matter) found.add(problem.s[a], length[a], lambda[a], rest[a], two_sided[at(a)]);
+  return found.all();
 }
 
 }  // namespace convex::inline optimality

@@ -25,8 +25,9 @@ bool Corrections::note(const GramPoint& made) {
                       : step > at_rounding * scale && previous > 0 ? step / previous
                                                                    : 0;
   const double usual = std::max(seen, usual_contraction(factor_condition_, gram_condition_));
-  // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
-  // with the same rows shows by how much. An inverse is off by the square of its growth where it is small.
+  // A residual is rounded once, and the factors of A and of the rows of the working set enlarge that; a
+  // second correction with the same rows shows by how much. An inverse is off by the square of its growth
+  // where it is small.
   const double contraction = std::max(
       unit_roundoff * made.growth * made.growth,
       is_fresh_ ? std::max(seen, expected_contraction(factor_condition_, gram_condition_, true)) : usual);
@@ -86,8 +87,8 @@ bool Corrections::take_noise_for_zero(GramPoint& point, bool more) {
     point.lambda_at[point.place[j]] = point.lambda[j];
   }
   rounding = std::sqrt(static_cast<double>(point.n) * rounded);
-  silenced = std::sqrt(static_cast<double>(point.n) * zeroed);
-  bound = 2 * remaining + silenced + rounding + let_pull;
+  dropped = std::sqrt(static_cast<double>(point.n) * zeroed);
+  bound = 2 * remaining + dropped + rounding + let_pull;
   return true;
 }
 

@@ -5,8 +5,8 @@
 
 namespace convex::inline pivoting {
 
-/// What corrections with residuals in twice the working precision make of the point of some rows held: how
-/// they converge, what of q and lambda is 0 as far as they tell, and the bound that is left.
+/// What corrections with residuals in twice the working precision make of the point of some rows of the
+/// working set: how they converge, what of q and lambda is 0 as far as they tell, and the bound that is left.
 class Corrections {
  public:
   /// Notes one (`GramPoint::step`, `change`). False when corrections shrink too slowly.
@@ -17,10 +17,10 @@ class Corrections {
   bool take_noise_for_zero(GramPoint&, bool more);
 
   /// What may be missing in the slack of a row of this length.
-  double missing_slack(double row_scale) const { return margin * row_scale * (remaining + silenced); }
+  double missing_slack(double row_scale) const { return margin * row_scale * (remaining + dropped); }
 
   double remaining = 0;  ///< an estimate of what is still missing, ||·||_A
-  double silenced = 0;   ///< at least ||·||_A of what cancelled and was taken for 0
+  double dropped = 0;    ///< at least ||·||_A of what cancelled and was taken for 0
   double rounding = 0;   ///< of q to doubles
   double bound = 0;
   double wrong = 0;  ///< the largest wrong multiplier, times its length, or slack, over it

@@ -61,11 +61,11 @@ bool split(CriticalRegion& region) {
   return std::isfinite(region.error_of_sums);
 }
 
-/// The point of an entry of (z, s_W) that is 1, all others 0, corrected: the j-th column. False when it
+/// The point of an entry of (z, s_S) that is 1, all others 0, corrected: the j-th column. False when it
 /// cannot be told.
 bool find_column(GramWorkingSet& set, Index j, CriticalRegion& region) {
   const GramPoint& p = set.point();
-  if (!set.keep_rows_held()) return false;
+  if (!set.keep_working_set()) return false;
   Corrections known;
   for (int pass = 0; pass < 2 || p.step > at_rounding * known.scale; ++pass)
     if (pass == most_corrections || !set.correct(pass == 0, 0) || !known.note(p)) return false;

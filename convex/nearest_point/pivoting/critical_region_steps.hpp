@@ -19,7 +19,7 @@ struct CriticalRegionSteps : Kernels<W, Fused> {
 
   MOREAU_INLINE Index ld(const CriticalRegion& region) { return packs == 1 ? 8 : region.p.ld; }
 
-  /// Takes in z and s_W, in their units, and splits them. The largest. Entries of s go by themselves: a pack
+  /// Takes in z and s_S, in their units, and splits them. The largest. Entries of s go by themselves: a pack
   /// would wait until they have reached the memory.
   MOREAU_INLINE double take_column(CriticalRegion& region, const double* z, const double* s) {
     const GramPoint& p = region.p;

@@ -25,7 +25,7 @@ FactoredRows::FactoredRows(const NearestPointProblem& problem, Arena& arena)
   for (double** x : {&p_.z, &p_.w_free, &p_.w, &p_.q, &p_.q_low, &p_.r, &p_.dq, &p_.diagonal,
                      &p_.inverse_diagonal, &p_.unit})
     *x = arena.take_filled(n, 0.0);
-  for (double** x : {&p_.row_scale, &p_.slack, &p_.touched_slack}) *x = arena.take<double>(m);
+  for (double** x : {&p_.row_scale, &p_.slack, &p_.degenerate_slack}) *x = arena.take<double>(m);
   for (double** x : {&p_.lambda, &p_.lambda_low, &p_.change, &p_.length, &p_.pull, &p_.held_slack, &load_})
     *x = arena.take<double>(k);
   for (double** x : {&p_.lambda_at, &p_.lambda_low_at, &y_, &rest_}) *x = arena.take_filled(places, 0.0);
@@ -69,25 +69,25 @@ bool FactoredRows::settle_again() {
   return settled;
 }
 
-bool FactoredRows::keep_rows_held() {
+bool FactoredRows::keep_working_set() {
   whiten_z();
-  if (!set_->keep_rows_held()) return false;
+  if (!set_->keep_working_set()) return false;
   p_.steps = 0;
   take_point(false);
   return true;
 }
 
-/// q and lambda of the rows held, in doubles.
+/// q and lambda of the working set, in doubles.
 void FactoredRows::take_point(bool has_changed) {
   set_->point(p_.w, p_.q);
   fill_packs(p_.ld, 0, p_.q_low);
   copy_packs(set_->rows().count(), set_->lambda(), p_.lambda_at);
   fill_packs(set_->rows().count(), 0, p_.lambda_low_at);
-  list_rows_held(has_changed);
+  list_working_set(has_changed);
   p_.acceleration_norm = std::sqrt(kernels_.dot(p_.ld, p_.w, p_.w));
 }
 
-void FactoredRows::list_rows_held(bool have_changed) {
+void FactoredRows::list_working_set(bool have_changed) {
   p_.size = set_->size();
   for (Index j = 0; j < p_.size; ++j) {
     const Index place = p_.place[j] = set_->place(j);
@@ -126,7 +126,7 @@ bool FactoredRows::correct(bool is_first, double small) {
     p_.lambda_at[p] = sum.hi;
     p_.lambda_low_at[p] = sum.lo;
   }
-  list_rows_held(has_changed);
+  list_working_set(has_changed);
   for (Index j = 0; j < p_.size; ++j) p_.change[j] = y_[p_.place[j]];
   p_.acceleration_norm = std::sqrt(kernels_.dot(p_.ld, p_.w, p_.w));
   p_.step = std::sqrt(kernels_.dot(p_.ld, p_.dq, p_.dq)) + zeroed;
@@ -160,7 +160,7 @@ void FactoredRows::find_residual(bool is_first) {
   kernels_.residual(p_.n, p_.A, p_.q_low, p_.all, p_.U, p_.size, p_.rows, p_.lambda_low, p_.dq, p_.r);
 }
 
-/// rest_ := s_a - u_a·q - v_a·dw of the rows held, or of all that matter, at their places; dw is in dq.
+/// rest_ := s_a - u_a·q - v_a·dw of the working set, or of all that matter, at their places; dw is in dq.
 void FactoredRows::rest_loads(bool is_first, bool with_outside) {
   alignas(64) double dots[8], low[8];
   const GramRows& rows = set_->rows();
@@ -212,7 +212,7 @@ bool FactoredRows::are_independent(std::span<const Index> rows, double part) {
   return true;
 }
 
-/// dual_ := A⁻¹u_j of the rows held, by eights side by side.
+/// dual_ := A⁻¹u_j of the rows of the working set, by eights side by side.
 void FactoredRows::find_dual_rows() {
   const Index k = p_.size, n = p_.n;
   if (dual_count_ == k && std::equal(dual_of_, dual_of_ + k, p_.rows)) return;

@@ -5,7 +5,7 @@
 
 namespace convex::inline pivoting {
 
-/// The rows held with a factor of their Gram matrix: `GramPivoting` finds them.
+/// The rows of the working set with a factor of their Gram matrix: `GramPivoting` finds them.
 class FactoredRows final : public GramWorkingSet {
  public:
   /// The problem is referred to; its z and s may change from one solve to the next.
@@ -15,7 +15,7 @@ class FactoredRows final : public GramWorkingSet {
   GramPoint& point() override { return p_; }
   bool settle(const std::vector<Index>& guess) override;
   bool settle_again() override;
-  bool keep_rows_held() override;
+  bool keep_working_set() override;
   bool is_near(double size) override;
   Index most_near() const override { return p_.all; }
   bool correct(bool is_first, double small) override;
@@ -25,13 +25,13 @@ class FactoredRows final : public GramWorkingSet {
   bool are_independent(std::span<const Index> rows, double part) override;
   void combine(std::span<const Index> rows) override;
   double raise(std::span<const Index> rows) override;
-  std::vector<Index> one_sided_rows_held() const override { return set_->one_sided_rows_held(); }
+  std::vector<Index> one_sided_working_set() const override { return set_->one_sided_working_set(); }
   std::optional<Vector> contradiction() const override { return set_->contradiction(); }
 
  private:
   void whiten_z();
   void take_point(bool has_changed);
-  void list_rows_held(bool have_changed);
+  void list_working_set(bool have_changed);
   double take_weak_for_zero(double small);
   void find_residual(bool is_first);
   void rest_loads(bool is_first, bool with_outside);

@@ -39,7 +39,7 @@ void GramFactor::pad(Index from) {
   }
 }
 
-/// L := the Gram matrix of the rows held, its lower part.
+/// L := the Gram matrix of the working set, its lower part.
 void GramFactor::gather() {
   for (Index j = 0; j < size_; ++j) {
     const double* from = rows_.gram(at_[j]);

@@ -4,9 +4,9 @@
 
 namespace convex::inline pivoting {
 
-/// The Cholesky factor L Lᵀ of the Gram matrix of some of the rows looked at, the rows held, kept up to date
-/// as rows come and go: a row that comes is one more row of L; when one goes, what stands behind it takes up
-/// its column, which is a change of rank one (Gill, Golub, Murray and Saunders 1974).
+/// The Cholesky factor L Lᵀ of the Gram matrix of some of the rows looked at, the working set, kept up to
+/// date as rows come and go: a row that comes is one more row of L; when one goes, what stands behind it
+/// takes up its column, which is a change of rank one (Gill, Golub, Murray and Saunders 1974).
 class GramFactor {
  public:
   GramFactor(const GramRows& rows, Arena& arena, Index capacity);

@@ -42,7 +42,7 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
     const std::optional<Vector> weights = set.contradiction();
     if (weights)
       solution = infeasible_answer(problem, *weights, set.point().norm(), set.point().steps, accuracy);
-    found.rows = set.one_sided_rows_held();
+    found.rows = set.one_sided_working_set();
     return weights && solution.status == Status::infeasible;
   };
   if (SweptRows::fits(problem)) {

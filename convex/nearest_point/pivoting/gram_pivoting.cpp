@@ -14,8 +14,9 @@ constexpr Index rooms = 2, rooms_up_to_200 = 3, unfilled = 128;
 /// Where no more than one row in so many changes, the factor is brought up to date; else it is made anew.
 constexpr Index most_changes = 6;
 
-/// Blocks that do not lower the number of wrong rows before pivoting has lost its way.
-constexpr int patience = 4;
+/// Blocks that do not lower the number of wrong rows before pivoting among all rows has lost its way; and
+/// among those looked at, where single steps follow.
+constexpr int patience = 4, patience_by_parts = 2;
 
 /// Up to so many rows a coordinate all rows are looked at again after each block; beyond, parts of them are
 /// settled first.
@@ -79,14 +80,14 @@ bool GramPivoting::start(const std::vector<Index>& guess) {
   return true;
 }
 
-/// Lists the rows held by their places.
+/// Lists the working set by their places.
 void GramPivoting::collect() {
   set_.clear();
   for (Index p = 0; p < rows_.count(); ++p)
     if (rows_.row(p) >= 0 && holds(rows_.row(p))) set_.list(p);
 }
 
-/// Factors the Gram matrix of the rows held, leaving dependent ones out; false when those have to stay.
+/// Factors the Gram matrix of the working set, leaving dependent ones out; false when those have to stay.
 bool GramPivoting::factor() {
   while (!set_.factor(near_dependence)) {
     const bool left = set_.leave_dependent(2 * near_dependence, [&](Index j) {
@@ -100,7 +101,7 @@ bool GramPivoting::factor() {
   return true;
 }
 
-/// Multipliers with which the rows held hold with equality.
+/// Multipliers with which the rows of the working set hold with equality.
 bool GramPivoting::find_multipliers() {
   if (!set_.is_factored() && !factor()) return false;
   for (Index j = 0; j < padded(set_.size()); ++j) load_[j] = j < set_.size() ? target_[set_.place(j)] : 0;
@@ -147,7 +148,7 @@ bool GramPivoting::settle_again() {
   return pivot_by_parts();
 }
 
-bool GramPivoting::keep_rows_held() {
+bool GramPivoting::keep_working_set() {
   rows_.reload();
   if (!find_multipliers()) return false;
   find_point(w_, q_);
@@ -173,26 +174,32 @@ void GramPivoting::start_pivoting() {
 
 bool GramPivoting::pivot() {
   start_pivoting();
-  return (m_ <= few_per_coordinate * n_ && pivot_at_once()) || pivot_by_parts();
+  return (m_ <= few_per_coordinate * n_ && pivot_by_blocks(Among::all)) || pivot_by_parts();
 }
 
-bool GramPivoting::pivot_at_once() {
+/// Block pivoting (Júdice and Pires 1994): the rows whose multiplier is negative go, a block of those
+/// violated comes in, until none is wrong. False when their number has not come down for some blocks.
+bool GramPivoting::pivot_by_blocks(Among among) {
+  const bool all = among == Among::all;
   Index fewest = m_ + 1;
-  for (int impatience = 0; impatience <= patience;) {
-    if (!find_multipliers() || by_single_steps_) return false;
-    find_slacks();
-    Index count = list_violated(outside);
+  for (int impatience = 0; impatience <= (all ? patience : patience_by_parts);) {
+    if (!find_multipliers() || (all && by_single_steps_)) return false;
+    if (all)
+      find_slacks();
+    else
+      find_slacks_of_known();
+    const Index count = list_violated(outside, among);
     // At a vertex, of which there may be many where rows just hold, single steps do not lose their way.
-    if (set_.size() == n_ && has_negative()) {
+    if (all && set_.size() == n_ && has_negative()) {
       by_single_steps_ = true;
       return false;
     }
     const Index leaving = drop_negative();
-    if (leaving + count == 0) return list_violated(passed) == 0;
+    if (leaving + count == 0) return list_violated(passed, among) == 0;
     impatience = leaving + count < fewest ? 0 : impatience + 1;
     fewest = std::min(fewest, leaving + count);
-    if (!take_in(choose_deepest(count, std::min(block_of(count), capacity_ - (set_.size() - leaving)))))
-      return false;
+    const Index room = std::min(block_of(count), capacity_ - (set_.size() - leaving));
+    if ((leaving == 0 && room == 0) || !take_in(choose_deepest(count, room))) return false;
   }
   return false;
 }
@@ -202,11 +209,17 @@ double GramPivoting::counted_violation() const {
 }
 
 /// Lists the rows in that state that the point found violates.
-Index GramPivoting::list_violated(State state) {
+Index GramPivoting::list_violated(State state, Among among) {
   const double scale = counted_violation();
   Index count = 0;
-  for (Index a = 0; a < m_; ++a)
+  const auto look_at = [&](Index a) {
     if (state_[a] == state && slack_[a] < -row_scale_[a] * scale) list_[count++] = a;
+  };
+  if (among == Among::all)
+    for (Index a = 0; a < m_; ++a) look_at(a);
+  else
+    for (Index p = 0; p < rows_.count(); ++p)
+      if (const Index a = rows_.row(p); a >= 0) look_at(a);
   return count;
 }
 

@@ -13,8 +13,9 @@ namespace convex::inline pivoting {
 /// that came in.
 class GramPivoting {
  public:
-  /// A row held of which less than this part, squared, lies outside the span of the others: nearly dependent,
-  /// left to an orthogonal factor; or dependent as far as doubles tell, and left out of the rows held.
+  /// A row of the working set of which less than this part, squared, lies outside the span of the others:
+  /// nearly dependent, left to an orthogonal factor; or dependent as far as doubles tell, and left out of the
+  /// working set.
   static constexpr double near_dependence = 1e-11, dependence = 1e-13;
   /// A smaller violation than this part of the scale does not count in doubles.
   static constexpr double least_violation = 1e-12;
@@ -25,17 +26,18 @@ class GramPivoting {
   /// Cache lines that it takes from the arena.
   static Index lines(Index n, Index m);
 
-  /// False when it does not settle, or when rows held are nearly dependent. guess: rows to begin with.
+  /// False when it does not settle, or when rows of the working set are nearly dependent. guess: rows to
+  /// begin with.
   bool settle(const std::vector<Index>& guess);
-  /// The same from the rows held now, after z and s of the problem have changed, and w_free with them.
+  /// The same from the working set now, after z and s of the problem have changed, and w_free with them.
   bool settle_again();
-  /// The point of the rows held now, whatever its signs.
-  bool keep_rows_held();
+  /// The point of the working set now, whatever its signs.
+  bool keep_working_set();
 
-  /// Pivots at the scale of what a point misses of its equations, on the same Gram matrix. Rows held whose
-  /// multiplier is clear of 0 stay, rows outside that are clear of their edge stay out; the others change
-  /// sides as the loads tell, at places: s_a - u_a·q - v_a·g for a point q whose equations of motion,
-  /// whitened, miss g, the weak multipliers counted as 0. `lambda` has the multipliers to add then.
+  /// Pivots at the scale of what a point misses of its equations, on the same Gram matrix. Rows of the
+  /// working set whose multiplier is clear of 0 stay, rows outside that are clear of their edge stay out; the
+  /// others change sides as the loads tell, at places: s_a - u_a·q - v_a·g for a point q whose equations of
+  /// motion, whitened, miss g, the weak multipliers counted as 0. `lambda` has the multipliers to add then.
   /// `clear_rows` comes first: which rows these are, by multipliers at places times lengths, and by slacks
   /// over `row_scale`, that exceed `zero`.
   void clear_rows(double zero, const double* multipliers, const double* slacks);
@@ -48,10 +50,10 @@ class GramPivoting {
 
   /// Weights of rows that contradict each other, as doubles tell; none where pivoting met none.
   const std::optional<Vector>& contradiction() const { return contradiction_; }
-  std::vector<Index> one_sided_rows_held() const;
+  std::vector<Index> one_sided_working_set() const;
 
   const GramRows& rows() const { return rows_; }
-  Index size() const { return set_.size(); }            ///< rows held
+  Index size() const { return set_.size(); }            ///< rows of the working set
   Index place(Index j) const { return set_.place(j); }  ///< of the j-th
   Index row(Index j) const { return set_.row(j); }
   bool holds(Index a) const { return state_[a] >= held; }
@@ -66,33 +68,34 @@ class GramPivoting {
   /// count as held by `holds`. False when there is doubt. `hold_no_more` lets go of them.
   bool hold_also(const Index* rows, Index count);
   void hold_no_more();
-  Index firm() const { return firm_; }  ///< so many of the rows held come before those
+  Index firm() const { return firm_; }  ///< so many of its rows come before those
 
-  /// x := (VᵀV)⁻¹x over the rows held; padded.
+  /// x := (VᵀV)⁻¹x over the working set; padded.
   void solve(double* x) const { set_.solve(x); }
   void solve_pack(double* X) const { set_.solve_pack(X); }
   /// Squared distances of up to eight rows looked at to the span of those held; X: room for as many packs.
   void distances(const Index* rows, Index count, double* X, double* squared) const;
   /// w = w_free + V lambda and q = L⁻ᵀw of the rows that it settled on, padded.
   void point(double* w, double* q) const;
-  /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.
+  /// No less than the largest 1/R_jj, V = Q R over the working set, whose entries are not small.
   double inverse_norm() const;
-  /// An estimate of the condition of the Gram matrix of the rows held, each divided by its length, by inverse
-  /// iteration; x: room for the rows held, padded.
+  /// An estimate of the condition of the Gram matrix of the working set, each divided by its length, by
+  /// inverse iteration; x: room for the working set, padded.
   double condition(double* x) const;
 
  private:
   /// clear_outside, clear: of rows that `clear_rows` has found to be so.
+  enum class Among { all, known };  ///< rows; known: looked at
   enum State : Index { outside, passed, clear_outside, held, clear, two_sided };
 
   bool all_known() const;
   bool start(const std::vector<Index>& guess);
   void start_pivoting();
   bool pivot();
-  bool pivot_at_once();
+  bool pivot_by_blocks(Among among);
   Index block_of(Index violated) const;
   double counted_violation() const;
-  Index list_violated(State state);
+  Index list_violated(State state, Among among);
   bool has_negative() const;
   Index drop_negative();
   Index choose_deepest(Index count, Index room);
@@ -103,8 +106,6 @@ class GramPivoting {
   bool pivot_by_parts();
   Index fill_up(Index count);
   void find_slacks_of_known();
-  Index list_violated_known(State state);
-  bool settle_known();
   bool descend_known();
   bool drop_most_negative();
   bool raise_in_turn(Index count);
@@ -124,7 +125,7 @@ class GramPivoting {
   const Index n_, m_, capacity_;
   GramRows rows_;
   const double *w_free_, *row_scale_;
-  GramFactor set_;  // of the rows held
+  GramFactor set_;  // of the working set
   double *lambda_, *w_, *q_, *slack_, *known_slack_, *load_, *column_;
   Index *state_, *list_, *entering_;
   Index steps_ = 0;

@@ -6,9 +6,6 @@
 namespace convex::inline pivoting {
 namespace {
 
-/// Blocks that do not lower the number of wrong rows before the steps of the dual method follow.
-constexpr int patience_by_parts = 2;
-
 /// New rows at a time: this part of the coordinates, by eights.
 constexpr double part_of_coordinates = 0.2;
 
@@ -26,10 +23,10 @@ bool GramPivoting::pivot_by_parts() {
   if (kept < count_held || kept < set_.size() || !set_.is_factored()) collect();
   const Index part = padded(1 + static_cast<Index>(part_of_coordinates * static_cast<double>(n_)));
   while (true) {
-    if ((by_single_steps_ || !settle_known()) && !descend_known()) return false;
+    if ((by_single_steps_ || !pivot_by_blocks(Among::known)) && !descend_known()) return false;
     if (all_known()) return true;
     find_slacks();
-    Index count = list_violated(outside);
+    Index count = list_violated(outside, Among::all);
     if (count == 0) return true;
     count = choose_deepest(count, by_single_steps_ ? 8 : std::min(block_of(count), part));
     for (Index k = 0; k < count; ++k)
@@ -73,33 +70,6 @@ void GramPivoting::find_slacks_of_known() {
   find_known_slacks(known_slack_);
   for (Index p = 0; p < rows_.count(); ++p)
     if (rows_.row(p) >= 0) slack_[rows_.row(p)] = known_slack_[p];
-}
-
-/// `list_violated` among the rows looked at.
-Index GramPivoting::list_violated_known(State state) {
-  const double scale = counted_violation();
-  Index count = 0;
-  for (Index p = 0; p < rows_.count(); ++p)
-    if (const Index a = rows_.row(p); a >= 0 && state_[a] == state && slack_[a] < -row_scale_[a] * scale)
-      list_[count++] = a;
-  return count;
-}
-
-/// Blocks among the rows looked at until none of them is wrong.
-bool GramPivoting::settle_known() {
-  Index fewest = m_ + 1;
-  for (int impatience = 0; impatience <= patience_by_parts;) {
-    if (!find_multipliers()) return false;
-    find_slacks_of_known();
-    const Index count = list_violated_known(outside), leaving = drop_negative();
-    if (leaving + count == 0) return list_violated_known(passed) == 0;
-    impatience = leaving + count < fewest ? 0 : impatience + 1;
-    fewest = std::min(fewest, leaving + count);
-    const Index room = std::min(block_of(count), capacity_ - (set_.size() - leaving));
-    if (leaving == 0 && room == 0) break;
-    take_in(choose_deepest(count, room));
-  }
-  return false;
 }
 
 }  // namespace convex::inline pivoting

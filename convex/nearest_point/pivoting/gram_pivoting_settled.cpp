@@ -34,7 +34,7 @@ bool GramPivoting::settle_rest(const double* load, double norm) {
   return settled;
 }
 
-std::vector<Index> GramPivoting::one_sided_rows_held() const {
+std::vector<Index> GramPivoting::one_sided_working_set() const {
   std::vector<Index> rows;
   for (Index a = 0; a < m_; ++a)
     if (state_[a] == held || state_[a] == clear) rows.push_back(a);

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline pivoting {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Steps in which multipliers are brought up to date before they are solved for anew.
 constexpr Index most_steps_since = 16;
@@ -98,7 +97,7 @@ bool GramPivoting::raise(Index a) {
   const double square = rows_.square(place);
   double raised = 0;
   for (double violation = -slack_[a];; steps_ += 1) {
-    double* const r = load_;  // u_a = Σ r_j u_j + what the rows held do not span
+    double* const r = load_;  // u_a = Σ r_j u_j + what the rows of the working set do not span
     const double rest = set_.distance(place, column_);
     const bool dependent = set_.size() == capacity_ || !(rest > dependence * square);
     if (!dependent && rest <= near_dependence * square) return false;

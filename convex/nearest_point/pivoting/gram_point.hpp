@@ -16,22 +16,22 @@ struct GramPoint {
 
   /// Of all rows. row_scale: ||u_a||_(D⁻¹), where rows are many and coordinates few no less and hardly more;
   /// slack: u_a·q - s_a; close: room for a list.
-  double *row_scale, *slack, *touched_slack;
+  double *row_scale, *slack, *degenerate_slack;
   Index* close;
 
-  /// Of the rows held: which they are, their places, their multipliers, and what a correction added to these;
-  /// length: |v_a|, pull: the same, 0 for a two-sided row.
+  /// Of the working set: which they are, their places, their multipliers, and what a correction added to
+  /// these; length: |v_a|, pull: the same, 0 for a two-sided row.
   Index *rows, *place, size = 0;
   double *lambda, *lambda_low, *change, *length, *pull;
   double* held_slack;                 ///< set apart: their `slack` is infinite, they are not close
   double *lambda_at, *lambda_low_at;  ///< at places, 0 for rows not held
-  double *pack, *coefficients;        ///< room for eight vectors, and for eight times the rows held
+  double *pack, *coefficients;        ///< room for eight vectors, and for eight times the working set
 
   Index steps = 0;  ///< rows taken in or dropped
   double z_norm = 0, acceleration_norm = 0, inverse_norm = 0, stationarity = 0;
   double magnitude = 0;  ///< ||q||_D
   double gram_condition =
-      0;                 ///< of the Gram matrix of the rows held, each divided by its length; an estimate
+      0;                 ///< of the Gram matrix of the working set, each divided by its length; an estimate
   double growth = 0;     ///< what enlarges rounding in the inverse of that; 0 where there is a factor
   double step = 0;       ///< ||dq||_A of a correction, and what it took for 0 before
   bool is_fresh = true;  ///< the first correction of these rows

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "convex/nearest_point/optimality/held_residuals.hpp"
+#include "convex/nearest_point/optimality/gathered_residuals.hpp"
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
 
 namespace convex::inline pivoting {
@@ -39,10 +39,10 @@ Index close_rows(GramPoint& p, const NearestPointProblem& problem, double absolu
 void write(const NearestPointProblem& problem, GramPoint& p, const PointError& known,
            const Accuracy& accuracy, Solution& solution) {
   measure_again_where_it_cancels(problem, known.scale, p);
-  // `convex::residuals`, to which only the rows held and touched matter; measured in doubles.
+  // `convex::residuals`, to which only the working set and degenerate rows matter; measured in doubles.
   double most = 0;
   for (Index k = 0; k < p.size; ++k) most = std::max(most, std::abs(p.lambda[k]));
-  HeldResiduals held(p.stationarity, p.acceleration_norm, known.scale, most);
+  GatheredResiduals held(p.stationarity, p.acceleration_norm, known.scale, most);
   for (Index k = 0; k < p.size; ++k)
     held.add(problem.s[p.rows[k]], p.length[k], p.lambda[k], p.held_slack[k], !(p.pull[k] > 0));
   solution.residuals = held.all();

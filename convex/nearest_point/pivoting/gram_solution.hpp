@@ -8,7 +8,7 @@
 
 namespace convex::inline pivoting {
 
-/// What is known of a point of some rows held, ||·||_A, and of the rows that it touches.
+/// What is known of the point of a working set, ||·||_A, and of the rows that it touches.
 struct PointError {
   double scale = 0;      ///< max(||q||_A, ||z||_(A⁻¹))
   double rounding = 0;   ///< of q to doubles
@@ -17,7 +17,7 @@ struct PointError {
   std::string_view undecided;
 };
 
-/// Sets the slacks of the rows held apart: infinite, they are not close.
+/// Sets the slacks of the working set apart: infinite, they are not close.
 void set_held_slacks_apart(GramPoint&);
 
 /// Lists the rows outside whose slack is not above `absolute` |s| + `by_length` times the length, until there

@@ -19,7 +19,7 @@ bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
 bool GramSolve::answer(const Accuracy& accuracy, Solution& solution) {
   known_ = Corrections();
   known_.scale = p_.norm();
-  moved_ = touched_violation_ = 0;
+  moved_ = degenerate_violation_ = 0;
   const double close = accuracy.tolerance * std::max(1.0, p_.acceleration_norm);
   return !accuracy.refine && doubles_do(close) ? write(accuracy, solution)
                                                : correct_until_told(accuracy, solution);
@@ -48,7 +48,7 @@ bool GramSolve::is_clear(double size) {
   return close_rows(near_zero, near_zero * std::max(size, p_.magnitude) + known_.missing_slack(1), 0) == 0;
 }
 
-/// Corrects the point of the rows held until all is told. What multipliers and slacks are wrong then, by
+/// Corrects the point of the working set until all is told. What multipliers and slacks are wrong then, by
 /// rounding, is the scale of a problem of the same kind, for those that are that small: pivoting goes on
 /// there, on the same Gram matrix, until nothing is wrong. Those that doubles leave open at once have a part
 /// in the first correction (`near_scale`). False when something is in doubt.
@@ -106,8 +106,9 @@ bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
   // As many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
   // multipliers are, so far as their signs are told, the point is that one.
   if (!(known_.bound <= close) && p_.size == p_.n && !problem_.radii && keeps_close(0)) known_.bound = 0;
-  const PointError known{known_.scale, known_.rounding, known_.bound + moved_, touched_violation_,
-                         problem_.radii && touches_rows() ? open_question::touched : std::string_view()};
+  const PointError known{
+      known_.scale, known_.rounding, known_.bound + moved_, degenerate_violation_,
+      problem_.radii && touches_rows() ? open_question::degenerate_rows : std::string_view()};
   pivoting::write(problem_, p_, known, accuracy, solution);
   return true;
 }

@@ -48,10 +48,10 @@ class GramSolve {
   Index close_rows(double absolute, double by_length, Index most) {
     return pivoting::close_rows(p_, problem_, absolute, by_length, most);
   }
-  void find_violation_of_touched_rows(Index count);
+  void find_violation_of_degenerate_rows(Index count);
   Index measure_precisely(Index count);
   double slack_noise(Index a) const;
-  Index leave_sums_of_rows_held(Index count);
+  Index leave_sums_of_working_set(Index count);
   std::optional<double> slack_by_parallel_row(Index a) const;
   bool find_way_up(Index count);
 
@@ -60,9 +60,9 @@ class GramSolve {
   GramPoint& p_;
   Corrections known_;
   std::optional<SlackOnEdge> edge_;
-  GridTest rows_;                 ///< all entries of U
-  double moved_ = 0;              ///< how far rows that the point touches may move the answer
-  double touched_violation_ = 0;  ///< by these rows, at q rounded, as in `residuals`
+  GridTest rows_;                    ///< all entries of U
+  double moved_ = 0;                 ///< how far rows that the point touches may move the answer
+  double degenerate_violation_ = 0;  ///< by these rows, at q rounded, as in `residuals`
 };
 
 }  // namespace convex::inline pivoting

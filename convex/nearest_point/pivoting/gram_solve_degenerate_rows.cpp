@@ -18,7 +18,7 @@ constexpr double least_rise = 1e-3;
 
 }  // namespace
 
-/// Whether q is 0, the point of the rows held, and keeps all others, without rounding.
+/// Whether q is 0, the point of the working set, and keeps all others, without rounding.
 bool GramSolve::is_at_rest() const {
   const Vector& s = problem_.s;
   return std::all_of(p_.q, p_.q + p_.n, [](double x) { return x == 0; }) && !problem_.radii &&
@@ -35,7 +35,7 @@ bool GramSolve::touches_rows() const {
 /// Slacks at the refined point. Rows violated have been looked at then, for the next correction to take them
 /// in.
 GramSolve::Slacks GramSolve::measure_slacks() {
-  moved_ = touched_violation_ = 0;
+  moved_ = degenerate_violation_ = 0;
   if (known_.wrong == 0 && is_at_rest()) {
     for (Index a = 0; a < p_.all; ++a) p_.slack[a] = 0 - problem_.s[a];
     for (Index k = 0; k < p_.size; ++k) p_.held_slack[k] = 0;
@@ -47,15 +47,15 @@ GramSolve::Slacks GramSolve::measure_slacks() {
   const double rounding = 2 * static_cast<double>(p_.n) * unit_roundoff,
                by_length = rounding * p_.magnitude + known_.missing_slack(1);
   const Index open = close_rows(rounding, by_length, p_.all);
-  const Index touched = std::partition(p_.close, p_.close + open,
-                                       [&](Index a) {
-                                         return !(p_.slack[a] < -(rounding * std::abs(problem_.s[a]) +
-                                                                  by_length * p_.row_scale[a]));
-                                       }) -
-                        p_.close;
-  if (touched < open) return look_at_violated(touched, open);
+  const Index degenerate = std::partition(p_.close, p_.close + open,
+                                          [&](Index a) {
+                                            return !(p_.slack[a] < -(rounding * std::abs(problem_.s[a]) +
+                                                                     by_length * p_.row_scale[a]));
+                                          }) -
+                           p_.close;
+  if (degenerate < open) return look_at_violated(degenerate, open);
   if (known_.wrong > 0) return Slacks::violated;
-  return touched == 0 ? Slacks::kept : decide_degenerate_rows(touched);
+  return degenerate == 0 ? Slacks::kept : decide_degenerate_rows(degenerate);
 }
 
 GramSolve::Slacks GramSolve::look_at_violated(Index first, Index end) {
@@ -64,14 +64,14 @@ GramSolve::Slacks GramSolve::look_at_violated(Index first, Index end) {
   return std::isfinite(known_.wrong) && set_.look_at(close(first, end)) ? Slacks::violated : Slacks::doubtful;
 }
 
-/// Of the rows held and the first `count` that are close (`keeps_rows`). Slacks as measured are without
-/// rounding where all numbers lie on grids.
+/// Of the rows of the working set and the first `count` that are close (`keeps_rows`). Slacks as measured are
+/// without rounding where all numbers lie on grids.
 bool GramSolve::keeps_close(Index count) {
   const auto step = GridSum(Eigen::Map<const Vector>(p_.q, p_.n)).step_of_sums(rows_);
   const auto is_exact = [&](Index a) { return is_on_grid(problem_.s[a], *step); };
   if (step && std::all_of(p_.rows, p_.rows + p_.size, is_exact) &&
       std::all_of(p_.close, p_.close + count, is_exact)) {
-    for (Index k = 0; k < count; ++k) p_.touched_slack[k] = p_.slack[p_.close[k]];
+    for (Index k = 0; k < count; ++k) p_.degenerate_slack[k] = p_.slack[p_.close[k]];
     return std::all_of(p_.held_slack, p_.held_slack + p_.size, [](double slack) { return slack == 0; }) &&
            std::all_of(p_.close, p_.close + count, [&](Index a) {
              const std::vector<Index>& equal = problem_.two_sided;
@@ -80,23 +80,23 @@ bool GramSolve::keeps_close(Index count) {
            });
   }
   return keeps_rows(problem_, Eigen::Map<const Vector>(p_.q, p_.n), {p_.rows, p_.rows + p_.size},
-                    close(0, count), p_.touched_slack);
+                    close(0, count), p_.degenerate_slack);
 }
 
 /// Of the first `count` rows that are close, which the point touches: rounding alone may hide that the exact
-/// point p of the rows held violates a row outside by 2⁻⁹⁵ or so. Where the doubles q are p and keep all rows
-/// without rounding, as at most vertices and at rest, nothing is left to tell; nor for a row that is a sum of
-/// rows held, not one bit left over, and asks for no more than they do. Where a motion e along the rows held
-/// raises all others that p touches, p + t e keeps all rows for a tiny t. Then ||q* - p|| <= t ||e||, q* the
-/// solution, since f grows by the square of that: a bound (`moved_`), whatever the angles are at which the
-/// rows meet.
+/// point p of the working set violates a row outside by 2⁻⁹⁵ or so. Where the doubles q are p and keep all
+/// rows without rounding, as at most vertices and at rest, nothing is left to tell; nor for a row that is a
+/// sum of rows of the working set, not one bit left over, and asks for no more than they do. Where a motion e
+/// along the working set raises all others that p touches, p + t e keeps all rows for a tiny t. Then ||q* -
+/// p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound (`moved_`), whatever the
+/// angles are at which the rows meet.
 GramSolve::Slacks GramSolve::decide_degenerate_rows(Index count) {
   if (keeps_close(count)) {
-    for (Index k = 0; k < count; ++k) p_.slack[p_.close[k]] = p_.touched_slack[k];
+    for (Index k = 0; k < count; ++k) p_.slack[p_.close[k]] = p_.degenerate_slack[k];
     return Slacks::kept;
   }
-  find_violation_of_touched_rows(count);
-  count = measure_precisely(leave_sums_of_rows_held(count));
+  find_violation_of_degenerate_rows(count);
+  count = measure_precisely(leave_sums_of_working_set(count));
   if (count < 0) return look_at_violated(0, -count);
   bool asks_more = false;
   count = std::remove_if(p_.close, p_.close + count,
@@ -117,12 +117,13 @@ GramSolve::Slacks GramSolve::decide_degenerate_rows(Index count) {
 }
 
 /// Violated at q rounded, in doubles, by the rows that the point touches.
-void GramSolve::find_violation_of_touched_rows(Index count) {
+void GramSolve::find_violation_of_degenerate_rows(Index count) {
   // ||u||_(A⁻¹) is at least this part of ||u||_(D⁻¹).
   const double part = 1 / std::sqrt(static_cast<double>(p_.n));
   for (Index a : close(0, count)) {
     const double size = std::abs(problem_.s[a]) + part * p_.row_scale[a] * p_.acceleration_norm;
-    if (p_.slack[a] < 0 && size > 0) touched_violation_ = std::max(touched_violation_, -p_.slack[a] / size);
+    if (p_.slack[a] < 0 && size > 0)
+      degenerate_violation_ = std::max(degenerate_violation_, -p_.slack[a] / size);
   }
 }
 
@@ -153,8 +154,8 @@ double GramSolve::slack_noise(Index a) const {
          known_.missing_slack(p_.row_scale[a]);
 }
 
-/// The slack of row a, with its sign, where a row held that is parallel to it, not one bit off, holds with
-/// equality; none where there is no such row.
+/// The slack of row a, with its sign, where a row of the working set that is parallel to it, not one bit off,
+/// holds with equality; none where there is no such row.
 std::optional<double> GramSolve::slack_by_parallel_row(Index a) const {
   const double *const U = p_.U, *const u = U + a * p_.n;
   const double part = std::abs(u[0]) / p_.row_scale[a];
@@ -179,9 +180,10 @@ std::optional<double> GramSolve::slack_by_parallel_row(Index a) const {
   return std::nullopt;
 }
 
-/// Takes out of the first `count` rows that are close those that are sums of rows held with short fractions
-/// as coefficients, not one bit left over, and ask for no more than they do. The number of those left.
-Index GramSolve::leave_sums_of_rows_held(Index count) {
+/// Takes out of the first `count` rows that are close those that are sums of rows of the working set with
+/// short fractions as coefficients, not one bit left over, and ask for no more than they do. The number of
+/// those left.
+Index GramSolve::leave_sums_of_working_set(Index count) {
   if (count == 0 || p_.size == 0) return count;
   if (!edge_) edge_.emplace(problem_, p_.row_scale);
   edge_->begin();
@@ -211,8 +213,8 @@ bool GramSolve::find_way_up(Index count) {
   if (!(norm > 0)) return false;
   constexpr double zero = 0;
   double t = 0, up = 0, length = 0;  // ||e||_D, D the diagonal of A
-  // Rounding lets e leave the rows held; the motion that brings it back is to leave what it raises raised. A
-  // row that depends on those held has no other rise than that.
+  // Rounding lets e leave the working set; the motion that brings it back is to leave what it raises raised.
+  // A row that depends on those held has no other rise than that.
   double missed = 0;
   for (Index k = 0; k < p_.size; ++k) {
     dense_kernels().slacks(1, p_.n, p_.U + p_.rows[k] * p_.n, p_.dq, &zero, &up);

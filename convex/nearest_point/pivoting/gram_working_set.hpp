@@ -9,9 +9,10 @@
 
 namespace convex::inline pivoting {
 
-/// The rows held and their whitened Gram matrix, in one representation or another: swept at the rows held
-/// (`SweptRows`), or with a factor (`FactoredRows`). It finds the point of the rows held and corrects it;
-/// what that point says is decided by `GramSolve`. False is always: in doubt.
+/// The rows of the working set and their whitened Gram matrix, in one representation or another: swept at the
+/// working set
+/// (`SweptRows`), or with a factor (`FactoredRows`). It finds the point of the rows of the working set and
+/// corrects it; what that point says is decided by `GramSolve`. False is always: in doubt.
 class GramWorkingSet {
  public:
   virtual ~GramWorkingSet() = default;
@@ -22,8 +23,8 @@ class GramWorkingSet {
   /// wrong; then the point in doubles.
   virtual bool settle(const std::vector<Index>& guess) = 0;
   virtual bool settle_again() = 0;
-  /// The point in doubles of the rows held, after z and s have changed, whatever its signs.
-  virtual bool keep_rows_held() = 0;
+  /// The point in doubles of the working set, after z and s have changed, whatever its signs.
+  virtual bool keep_working_set() = 0;
   /// Whether a multiplier (times its row's length) or a slack (over it) is no larger at the point settled on,
   /// as far as rows have been looked at; then `slack` is that of all.
   virtual bool is_near(double size) = 0;
@@ -43,13 +44,13 @@ class GramWorkingSet {
   /// held.
   virtual bool are_independent(std::span<const Index> rows, double part) = 0;
   /// Up to eight rows, side by side in `pack`, as if they were combinations of those held: the coefficients
-  /// into `coefficients`, eight for each row held.
+  /// into `coefficients`, eight for each row of the working set.
   virtual void combine(std::span<const Index> rows) = 0;
-  /// dq: a motion along the rows held that raises the others given, as far as they are independent. Its
+  /// dq: a motion along the working set that raises the others given, as far as they are independent. Its
   /// ||·||_A; 0 where none is found.
   virtual double raise(std::span<const Index> rows) = 0;
 
-  virtual std::vector<Index> one_sided_rows_held() const = 0;
+  virtual std::vector<Index> one_sided_working_set() const = 0;
   /// Weights of rows that contradict each other, as doubles tell, where pivoting met such; they are to be
   /// proved.
   virtual std::optional<Vector> contradiction() const = 0;

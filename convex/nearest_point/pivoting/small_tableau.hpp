@@ -24,19 +24,20 @@ struct SmallTableau : GramPoint {
 
   alignas(64) double raw[most_coordinates * most];       ///< u_a
   alignas(64) double whitened[most_coordinates * most];  ///< v_a = L⁻¹u_a
-  /// The Gram matrix G of the v_a, swept at the rows held S, is -G_SS⁻¹ there, G_oS G_SS⁻¹ beside it, and the
-  /// Schur complement of G_SS elsewhere (Beaton 1964). Of that the diagonal is kept, and the column of each
-  /// pivot as it was before, from which any other is found (the product form: Dantzig and Orchard-Hays 1954).
+  /// The Gram matrix G of the v_a, swept at the working set S, is -G_SS⁻¹ there, G_oS G_SS⁻¹ beside it, and
+  /// the Schur complement of G_SS elsewhere (Beaton 1964). Of that the diagonal is kept, and the column of
+  /// each pivot as it was before, from which any other is found (the product form: Dantzig and Orchard-Hays
+  /// 1954).
   alignas(64) double swept_diagonal[most], pivot_columns[most * most];
   Index pivots = 0, pivot_place[most], last_pivot[most];  ///< last_pivot: at a place, -1 for none
   double over_pivot[most], pivot_sign[most];  ///< sign: 1 for a row that came in, -1 for one that left
-  /// lambda_a of a row held, s_a - u_a·q of another.
+  /// lambda_a of a row of the working set, s_a - u_a·q of another.
   alignas(64) double b[most];
   alignas(64) double load[most];                           ///< s_a - v_a·w_free
   alignas(64) double level[most], square[most];            ///< s_a, |v_a|²
   alignas(64) double scale_at[most], inverse_scale[most];  ///< `row_scale`, and 1 over it
   /// Per row, by its state: `leave` is minus the scale of a row that may leave, `enter` the inverse of that
-  /// of one that may enter, 0 otherwise; share: 1 for a row held.
+  /// of one that may enter, 0 otherwise; share: 1 for a row of the working set.
   alignas(64) double leave[most], enter[most], share[most];
   alignas(64) double slack_at[most];  ///< where all rows are looked at, `slack` too
   alignas(64) double rest[most];  ///< s_a - u_a·q - v_a·dw, dw what the equations of motion miss, whitened
@@ -57,7 +58,7 @@ struct SmallTableau : GramPoint {
     alignas(64) double coordinates[10][most_coordinates];
     alignas(64) double held[6][most], at_places[2][most];
     alignas(64) double pack[8 * most_coordinates], coefficients[8 * most_coordinates],
-        touched_slack[few_rows];
+        degenerate_slack[few_rows];
     Index rows[most], place[most], close[few_rows];
   } room;  ///< what `GramPoint` points to
 };
@@ -91,7 +92,7 @@ struct SmallKernels {
   void (*measure_balance)(SmallTableau&);
   /// The column at a place of the Gram matrix as it is swept.
   void (*find_column)(const SmallTableau&, Index place, double* column);
-  /// A vector for each of the rows held, by eights side by side: their products with a row of U are its
+  /// A vector for each row of the working set, by eights side by side: their products with a row of U are its
   /// coefficients over these.
   void (*dual_rows)(const SmallTableau&, double* dual);
   /// Lists the rows of m whose slack is not above `absolute` |s| + `by_length` times the length; s may be

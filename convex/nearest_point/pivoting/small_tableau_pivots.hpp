@@ -122,11 +122,11 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
     t.is_listed = false;
   }
 
-  /// Forgets what pivots there were, but for those that take in the rows held.
+  /// Forgets what pivots there were, but for those that take in the working set.
   MOREAU_INLINE void sweep_anew(SmallTableau& t) {
-    Compiled<W, &SmallTableauPivots::sweep_rows_held>::apart(t);
+    Compiled<W, &SmallTableauPivots::sweep_working_set>::apart(t);
   }
-  MOREAU_INLINE void sweep_rows_held(SmallTableau& t) {
+  MOREAU_INLINE void sweep_working_set(SmallTableau& t) {
     alignas(64) double b[SmallTableau::most], column[SmallTableau::most];
     copy_packs(stride(t), t.b, b);
     forget_pivots(t);
@@ -140,8 +140,8 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
     copy_packs(stride(t), b, t.b);
   }
 
-  /// Lists the rows held.
-  MOREAU_INLINE void list_rows_held(SmallTableau& t) {
+  /// Lists the working set.
+  MOREAU_INLINE void list_working_set(SmallTableau& t) {
     if (t.is_listed) return;
     t.is_listed = true;
     t.size = 0;

@@ -14,9 +14,9 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   using K = Kernels<W, Fused>;
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
-  using Pivots::infinite, Pivots::is_nearly_dependent, Pivots::list_rows_held, Pivots::pivot, Pivots::sweep,
+  using Pivots::infinite, Pivots::is_nearly_dependent, Pivots::list_working_set, Pivots::pivot, Pivots::sweep,
       Pivots::forget_pivots, Pivots::sweep_anew, Pivots::sweep_load;
-  /// Beyond twice the rows held and so many more, pivots are forgotten but for one for each row held.
+  /// Beyond twice the working set and so many more, pivots are forgotten but for one for each of its rows.
   static constexpr Index few_pivots = 8;
   using Rows::each, Rows::ld, Rows::load_block, Rows::measure_block, Rows::set_outside, Rows::set_state,
       Rows::stride, Rows::take_block, Rows::whiten_blocks, Rows::whiten_z;
@@ -59,7 +59,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     return true;
   }
 
-  /// x := x + Σ_k b_k v_k over the rows held: L⁻¹ times the sum of the b_k u_k, with no triangle to solve.
+  /// x := x + Σ_k b_k v_k over the working set: L⁻¹ times the sum of the b_k u_k, with no triangle to solve.
   MOREAU_INLINE void add_whitened_rows(const SmallTableau& t, double* x) {
     alignas(64) double weight[SmallTableau::most];
     for (Index r = 0; r < stride(t); r += 8)
@@ -79,9 +79,9 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     }
   }
 
-  /// Takes what b adds to the multipliers of the rows held into these.
+  /// Takes what b adds to the multipliers of the working set into these.
   MOREAU_INLINE void take_multipliers(SmallTableau& t) {
-    list_rows_held(t);
+    list_working_set(t);
     for (Index k = 0; k < t.size; ++k) {
       const Index a = t.place[k];
       t.change[k] = t.b[a];

@@ -34,7 +34,7 @@ SweptRows::SweptRows(const NearestPointProblem& problem, SmallTableau& tableau)
   small_kernels().take_diagonal(tableau, problem.A.diagonal().data());
   tableau.row_scale = tableau.scale_at;
   tableau.slack = tableau.slack_at;
-  tableau.touched_slack = tableau.room.touched_slack;
+  tableau.degenerate_slack = tableau.room.degenerate_slack;
   tableau.close = tableau.room.close;
   if (tableau.all <= SmallTableau::few_rows) return;
   const Index rows = padded(tableau.all);
@@ -42,7 +42,7 @@ SweptRows::SweptRows(const NearestPointProblem& problem, SmallTableau& tableau)
   tableau.row_scale = tableau.all_rows.take<double>(rows);
   tableau.slack = tableau.all_rows.take<double>(rows);
   inverse_scale_ = tableau.all_rows.take<double>(rows);
-  tableau.touched_slack = tableau.all_rows.take<double>(rows);
+  tableau.degenerate_slack = tableau.all_rows.take<double>(rows);
   tableau.close = tableau.all_rows.take<Index>(rows);
   place_ = tableau.all_rows.take<Index>(rows);
   fill_packs(8, 0, tableau.slack + rows - 8);
@@ -106,7 +106,7 @@ bool SweptRows::settle_again() {
   return small_kernels().begin_again(t) && settle_all();
 }
 
-bool SweptRows::keep_rows_held() {
+bool SweptRows::keep_working_set() {
   SmallTableau& t = tableau_;
   take_linear_term();
   t.steps = 0;
@@ -212,7 +212,7 @@ std::optional<Vector> SweptRows::contradiction() const {
   return weights;
 }
 
-std::vector<Index> SweptRows::one_sided_rows_held() const {
+std::vector<Index> SweptRows::one_sided_working_set() const {
   std::vector<Index> rows;
   for (Index a = 0; a < tableau_.m; ++a)
     if (tableau_.held[a] && !tableau_.two_sided[a]) rows.push_back(tableau_.row[a]);

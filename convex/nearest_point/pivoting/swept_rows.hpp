@@ -5,7 +5,7 @@
 
 namespace convex::inline pivoting {
 
-/// Where coordinates are few: the Gram matrix of the whitened rows looked at is swept at the rows held, so
+/// Where coordinates are few: the Gram matrix of the whitened rows looked at is swept at the working set, so
 /// that one pivot gives all multipliers and slacks (principal pivoting: Keller 1973; the sweep: Beaton 1964),
 /// by the steps of the dual method (Goldfarb and Idnani 1983). Few rows are looked at all at once; of many
 /// those that are violated, eight at a time: what has been looked at is settled before all are measured
@@ -26,7 +26,7 @@ class SweptRows final : public GramWorkingSet {
   GramPoint& point() override { return tableau_; }
   bool settle(const std::vector<Index>& guess) override;
   bool settle_again() override;
-  bool keep_rows_held() override;
+  bool keep_working_set() override;
   bool is_near(double size) override;
   Index most_near() const override { return looks_at_all() ? tableau_.all : few_near; }
   bool correct(bool is_first, double small) override;
@@ -36,7 +36,7 @@ class SweptRows final : public GramWorkingSet {
   bool are_independent(std::span<const Index> rows, double part) override;
   void combine(std::span<const Index> rows) override;
   double raise(std::span<const Index>) override { return 0; }
-  std::vector<Index> one_sided_rows_held() const override;
+  std::vector<Index> one_sided_working_set() const override;
   std::optional<Vector> contradiction() const override;
 
  private:

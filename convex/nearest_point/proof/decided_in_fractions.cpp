@@ -36,7 +36,7 @@ bool is_in_balance(const NearestPointProblem& problem, const Vector& q, const Ve
   if (A.kind() == MetricKind::sparse) return false;
   std::vector<ExactSum> rest(static_cast<std::size_t>(q.size()));
   for (Index i = 0; i < q.size(); ++i) {
-    ExactSum& sum = rest[static_cast<std::size_t>(i)];
+    ExactSum& sum = rest[at(i)];
     sum.add(problem.z[i]);
     if (A.kind() != MetricKind::dense) sum.add_product(-A.diagonal()[i], q[i]);
     for (Index j = 0; A.kind() == MetricKind::dense && j < q.size(); ++j)
@@ -45,7 +45,7 @@ bool is_in_balance(const NearestPointProblem& problem, const Vector& q, const Ve
   for (Index a = 0; a < problem.rows(); ++a) {
     if (lambda[a] == 0) continue;
     const Vector u = problem.U.row(a);
-    for (Index i = 0; i < q.size(); ++i) rest[static_cast<std::size_t>(i)].add_product(u[i], lambda[a]);
+    for (Index i = 0; i < q.size(); ++i) rest[at(i)].add_product(u[i], lambda[a]);
   }
   return std::all_of(rest.begin(), rest.end(), [](const ExactSum& sum) { return sum.sign() == 0; });
 }
@@ -126,22 +126,22 @@ bool has_open_zeros(const NearestPointProblem& problem, const Solution& solved) 
   if (std::none_of(solved.basis.begin(), solved.basis.end(),
                    [&](Index a) { return solved.lambda[a] == 0 && !problem.is_two_sided(a); }))
     return false;
-  std::vector<bool> told(static_cast<std::size_t>(problem.rows()), false);  // without a sign to tell
-  for (Index a : problem.two_sided) told[static_cast<std::size_t>(a)] = true;
-  for (Index a : solved.basis) told[static_cast<std::size_t>(a)] = true;
-  std::vector<Index> touched;
+  std::vector<bool> told(at(problem.rows()), false);  // without a sign to tell
+  for (Index a : problem.two_sided) told[at(a)] = true;
+  for (Index a : solved.basis) told[at(a)] = true;
+  std::vector<Index> degenerate;
   for (Index a = 0; a < problem.rows(); ++a)
-    if (!told[static_cast<std::size_t>(a)] && solved.slack[a] == 0) touched.push_back(a);
-  // The point of the rows held itself, and in balance with its multipliers, or a vertex.
+    if (!told[at(a)] && solved.slack[a] == 0) degenerate.push_back(a);
+  // The point of the working set itself, and in balance with its multipliers, or a vertex.
   const bool is_vertex = static_cast<Index>(solved.basis.size()) == problem.dimension();
-  return !slacks_if_kept(problem, solved.q, solved.basis, touched) ||
+  return !slacks_if_kept(problem, solved.q, solved.basis, degenerate) ||
          !(is_vertex || is_in_balance(problem, solved.q, solved.lambda));
 }
 
 Solution with_signs_of_zeros(const NearestPointProblem& problem, Solution solved, const Accuracy& accuracy) {
   std::optional<Solution> found =
       in_fractions(problem, solved, accuracy, part_for_zeros * accuracy.limit * most_word_operations,
-                   open_question::touched);
+                   open_question::degenerate_rows);
   return found ? *std::move(found) : solved;
 }
 

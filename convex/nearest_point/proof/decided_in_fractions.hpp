@@ -11,7 +11,7 @@ namespace convex::inline proof {
 /// What doubles leave open, in the words of the reports.
 namespace open_question {
 inline constexpr std::string_view dependence = "whether rows depend on each other";
-inline constexpr std::string_view touched = "whether rows that the point touches are kept";
+inline constexpr std::string_view degenerate_rows = "whether rows that the point touches are kept";
 inline constexpr std::string_view contradiction = "whether rows contradict each other";
 inline constexpr std::string_view conditioning = "the digits of a nearly singular system";
 inline constexpr std::string_view range = "numbers whose squares are beyond them";
@@ -37,8 +37,9 @@ double bound_proved_in_fractions(const ExactProblem&, const Solution&, const Acc
 /// consistent, look at the bound as if they were.
 Solution bounded_where_decided(const NearestPointProblem&, Solution, const Accuracy&);
 
-/// Whether an answer that is solved leaves the signs of zeros open: of multipliers of rows held that doubles
-/// cannot tell from 0. A row whose multiplier is below 0 by less than that is not held, and has a slack.
+/// Whether an answer that is solved leaves the signs of zeros open: of multipliers of rows of the working set
+/// that doubles cannot tell from 0. A row whose multiplier is below 0 by less than that is not held, and has
+/// a slack.
 bool has_open_zeros(const NearestPointProblem&, const Solution& solved);
 
 /// The answer with these signs, and those of slacks, from fractions, where that takes a small part of the

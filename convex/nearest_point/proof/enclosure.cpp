@@ -24,7 +24,7 @@ bool multipliers_are_positive(const NearestPointProblem& problem, const std::vec
                               const HeldPoint& point) {
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (two_sided[static_cast<std::size_t>(rows[r])]) continue;
+    if (two_sided[at(rows[r])]) continue;
     const auto k = static_cast<Index>(r);
     if (!(below(point.lambda[k] + point.dlambda[k]) > above(point.multiplier_radius[k]))) return false;
   }
@@ -33,7 +33,8 @@ bool multipliers_are_positive(const NearestPointProblem& problem, const std::vec
 
 constexpr std::size_t most_others = 60;
 
-/// The rows held that make up row a, as doubles see it; `against`: each one-sided one with a negative part.
+/// The rows of the working set that make up row a, as doubles see it; `against`: each one-sided one with a
+/// negative part.
 struct Parts {
   std::vector<Index> others;
   bool against = true;
@@ -46,13 +47,14 @@ Parts parts_of(const NearestPointProblem& problem, const Preconditioned& P, cons
   Parts parts;
   for (Index r = 0; r < c.size(); ++r) {
     if (!(std::abs(c[r]) > noticeable * c.cwiseAbs().maxCoeff())) continue;
-    parts.others.push_back(held[static_cast<std::size_t>(r)]);
+    parts.others.push_back(held[at(r)]);
     parts.against = parts.against && (c[r] < 0 || problem.is_two_sided(parts.others.back()));
   }
   return parts;
 }
 
-/// Whether the open rows are exactly implied by rows held at which doubles find them to be combinations.
+/// Whether the open rows are exactly implied by rows of the working set at which doubles find them to be
+/// combinations.
 bool follow(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
             const Active& active, const std::vector<Index>& held, const std::vector<OpenRow>& open) {
   if (radii.any()) return open.empty();
@@ -67,7 +69,7 @@ bool follow(const NearestPointProblem& problem, const RadiiOf& radii, const Prec
   return together.empty() || follow_exactly(problem, together, held, most_word_operations);
 }
 
-/// At least ||q* - q_W||_A: 0 where every other slack is positive, or exactly implied not to be negative.
+/// At least ||q* - q_S||_A: 0 where every other slack is positive, or exactly implied not to be negative.
 std::optional<double> shift_of_open_rows(const NearestPointProblem& problem, const RadiiOf& radii,
                                          const Preconditioned& P, const Active& active,
                                          const std::vector<Index>& held, const HeldPoint& point) {
@@ -119,7 +121,7 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
   if (!problem.two_sided.empty()) {
     const linear_algebra::PivotedQr factor(whitened_rows(problem, problem.two_sided));
     for (Index r = 0; r < factor.rank; ++r)
-      rows.push_back(problem.two_sided[static_cast<std::size_t>(factor.order[static_cast<std::size_t>(r)])]);
+      rows.push_back(problem.two_sided[at(factor.order[static_cast<std::size_t>(r)])]);
   }
   const std::size_t two_sided = rows.size();
   std::vector<Index> free(two_sided);
@@ -175,7 +177,7 @@ bool is_ordinary_problem(const NearestPointProblem& problem, const Solution& sol
                                : is_ordinary(problem.U.dense());
 }
 
-/// Open rows that add up to 0 with rows held, and their bounds: equalities in disguise.
+/// Open rows that add up to 0 with rows of the working set, and their bounds: equalities in disguise.
 std::vector<Index> disguised(const NearestPointProblem& problem, const RadiiOf& radii,
                              const Preconditioned& P, const Active& active, const std::vector<Index>& held,
                              const HeldPoint& point) {
@@ -208,16 +210,15 @@ bool is_kept_exactly(const NearestPointProblem& problem, const std::vector<Index
                           two_sided = marked(problem.rows(), problem.two_sided);
   for (std::size_t r = 0; r < held.size(); ++r) {
     const auto k = static_cast<Index>(r);
-    if (!two_sided[static_cast<std::size_t>(held[r])] && !(below(point.lambda[k] + point.dlambda[k]) >= 0))
-      return false;
+    if (!two_sided[at(held[r])] && !(below(point.lambda[k] + point.dlambda[k]) >= 0)) return false;
   }
   std::vector<Index> others;
   for (Index a = 0; a < problem.rows(); ++a)
-    if (!is_held[static_cast<std::size_t>(a)]) others.push_back(a);
+    if (!is_held[at(a)]) others.push_back(a);
   return slacks_if_kept(problem, point.q, held, others).has_value();
 }
 
-/// The bound from the rows held, when they stand alone and push.
+/// The bound from the working set, when they stand alone and push.
 std::optional<double> bound_from(const NearestPointProblem& problem, const RadiiOf& radii,
                                  const Preconditioned& P, const Solution& solution, Held held) {
   const auto stand_alone = [](const std::optional<Active>& rows) { return rows && rows->delta < 0.5; };
@@ -239,7 +240,7 @@ std::optional<double> bound_from(const NearestPointProblem& problem, const Radii
   return above(length_above(P, radii, point.dq) + point.radius + *shift);
 }
 
-/// Open rows that are independent of each other and of the rows held.
+/// Open rows that are independent of each other and of the working set.
 std::vector<Index> more_rows(const NearestPointProblem& problem, const Preconditioned& P,
                              const Active& active, const std::vector<OpenRow>& open) {
   if (open.empty()) return {};
@@ -255,12 +256,12 @@ std::vector<Index> more_rows(const NearestPointProblem& problem, const Precondit
   const linear_algebra::PivotedQr factor(V);
   std::vector<Index> found;
   for (Index r = 0; r < factor.rank; ++r)
-    found.push_back(open[static_cast<std::size_t>(factor.order[static_cast<std::size_t>(r)])].row);
+    found.push_back(open[at(factor.order[static_cast<std::size_t>(r)])].row);
   return found;
 }
 
-/// The bound where rows held and open are equalities in disguise: these are held, with multipliers of any
-/// sign.
+/// The bound where rows of the working set and open are equalities in disguise: these are held, with
+/// multipliers of any sign.
 std::optional<double> bound_with_disguised(const NearestPointProblem& problem, const RadiiOf& radii,
                                            const Preconditioned& P, const Solution& solution, Held held) {
   if (radii.any()) return std::nullopt;

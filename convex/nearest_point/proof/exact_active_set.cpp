@@ -197,7 +197,7 @@ class ExactActiveSet {
         return false;
       }
       if (rise.is_zero() || (blocking >= 0 && first < Fraction{gap, rise})) {
-        drop(static_cast<std::size_t>(blocking));
+        drop(at(blocking));
         continue;
       }
       rows_.push_back(p);

@@ -9,19 +9,19 @@
 
 namespace convex::inline proof {
 
-TouchedRows touched_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+RestrictedRows restricted_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   const ConstraintRows chosen = problem.U.select(rows);
   RowMatrix U(static_cast<Index>(rows.size()), problem.dimension());
   for (Index r = 0; r < U.rows(); ++r) U.row(r) = chosen.row(r);
-  std::vector<Index> touched;
+  std::vector<Index> with_entries;
   for (Index i = 0; i < U.cols(); ++i)
-    if ((U.col(i).array() != 0).any()) touched.push_back(i);
-  return {U(Eigen::all, touched), problem.s(rows)};
+    if ((U.col(i).array() != 0).any()) with_entries.push_back(i);
+  return {U(Eigen::all, with_entries), problem.s(rows)};
 }
 
-ExactProblem as_integers(const TouchedRows& rows) {
+ExactProblem as_integers(const RestrictedRows& rows) {
   ExactProblem exact;
-  exact.z.assign(static_cast<std::size_t>(rows.U.cols()), 0);
+  exact.z.assign(at(rows.U.cols()), 0);
   for (Index r = 0; r < rows.U.rows(); ++r) append_row(exact, rows.U.row(r), rows.s[r]);
   return exact;
 }
@@ -58,7 +58,7 @@ struct ZeroSum {
 };
 
 std::optional<ZeroSum> zero_sum(const NearestPointProblem& problem, const std::vector<Index>& rows) {
-  const ExactProblem exact = as_integers(touched_rows(problem, rows));
+  const ExactProblem exact = as_integers(restricted_rows(problem, rows));
   // The weights are of the rows themselves; those of `exact` are theirs times row_unit.
   ZeroSum found{dependence_of(exact), {}};
   const IntegerVector& w = found.w;
@@ -106,7 +106,7 @@ std::optional<bool> depend_as_told(const NearestPointProblem& problem, const std
   if (K * (K * (n + 2 * K) + d * (n + K)) > most_words) return std::nullopt;
   std::vector<Index> rows = basic;
   rows.insert(rows.end(), dependent.begin(), dependent.end());
-  const ExactProblem exact = as_integers(touched_rows(problem, rows));
+  const ExactProblem exact = as_integers(restricted_rows(problem, rows));
   const std::size_t k = basic.size(), columns = exact.z.size();
   IntegerRows of_basic(columns, IntegerVector(k));
   for (std::size_t i = 0; i < columns; ++i)
@@ -146,7 +146,7 @@ bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>
   const double K = static_cast<double>(k), n = static_cast<double>(problem.dimension());
   double words = K * K * n + static_cast<double>(rows.size()) * K * n;
   if (words > most_words) return false;
-  const ExactProblem exact = as_integers(touched_rows(problem, all));
+  const ExactProblem exact = as_integers(restricted_rows(problem, all));
   IntegerRows columns(exact.z.size(), IntegerVector(k));
   for (std::size_t i = 0; i < exact.z.size(); ++i)
     for (std::size_t r = 0; r < k; ++r) columns[i][r] = exact.U[r][i];

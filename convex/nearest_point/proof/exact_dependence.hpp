@@ -8,13 +8,13 @@
 namespace convex::inline proof {
 
 /// Rows with their bounds, over the coordinates that they touch.
-struct TouchedRows {
+struct RestrictedRows {
   RowMatrix U;
   Vector s;
 };
-TouchedRows touched_rows(const NearestPointProblem&, const std::vector<Index>& rows);
+RestrictedRows restricted_rows(const NearestPointProblem&, const std::vector<Index>& rows);
 /// The same as integers, A left out.
-ExactProblem as_integers(const TouchedRows&);
+ExactProblem as_integers(const RestrictedRows&);
 
 /// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
 /// rows are independent in; empty when there is more than one such w up to a factor.

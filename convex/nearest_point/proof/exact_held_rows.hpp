@@ -7,18 +7,18 @@
 
 namespace convex::inline proof {
 
-/// The problem, which is referred to, with independent rows W held: its KKT system, which follows W, and its
-/// point, q before the multipliers of W, all over one denominator.
+/// The problem, which is referred to, with independent rows S held: its KKT system, which follows S, and its
+/// point, q before the multipliers of S, all over one denominator.
 class ExactHeldRows {
  public:
   ExactHeldRows(const ExactProblem& problem, const std::vector<Index>& rows)
       : problem_(problem), rows_(rows), system_(prepared()) {}
 
   ExactVector point() const;
-  /// How the point moves with the multiplier of one more row, and with it the multipliers of W.
+  /// How the point moves with the multiplier of one more row, and with it the multipliers of S.
   ExactVector direction(const IntegerVector& row) const;
 
-  /// Row p as the last one of W; W without its row k.
+  /// Row p as the last one of S; S without its row k.
   void append(Index p);
   void remove(std::size_t k);
 

@@ -76,8 +76,7 @@ Solution rounded(const ExactProblem& problem, const ExactSolution& exact, const 
   solution.q = nearest(exact.q);
   solution.lambda = nearest(exact.lambda);
   solution.slack.resize(problem.rows());
-  for (Index a = 0; a < problem.rows(); ++a)
-    solution.slack[a] = nearest_double(exact.slack[static_cast<std::size_t>(a)]);
+  for (Index a = 0; a < problem.rows(); ++a) solution.slack[a] = nearest_double(exact.slack[at(a)]);
   solution.error_bound = solution.rounding = distance_above(problem, solution.q, exact.q);
   solution.acceleration_norm = root_above(squared_norm(problem, exact.q));
   const bool finite =

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/exact/modular.hpp"
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/proof/exact_least_norm.hpp"
 
 namespace convex::inline proof {
@@ -103,7 +104,6 @@ std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, c
 }
 
 Multipliers rounded(const ExactMultipliers& exact) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Multipliers found;
   found.unique = exact.unique;
   found.least_norm = nearest(exact.least_norm);

@@ -133,11 +133,11 @@ ExactProblem exact_problem_of_definite(const ExactRows& A, const ExactVector& z,
 NearestPointProblem rounded(const ExactProblem& problem) {
   const Index n = problem.dimension(), m = problem.rows();
   Matrix A(n, n);
-  for (Index i = 0; i < n; ++i) A.col(i) = nearest({problem.A[static_cast<std::size_t>(i)], problem.unit});
+  for (Index i = 0; i < n; ++i) A.col(i) = nearest({problem.A[at(i)], problem.unit});
   RowMatrix U(m, n);
   Vector s(m);
   for (Index a = 0; a < m; ++a) {
-    const auto k = static_cast<std::size_t>(a);
+    const auto k = at(a);
     U.row(a) = nearest({problem.U[k], problem.row_unit[k]});
     s[a] = nearest_quotient(problem.s[k], problem.row_unit[k]);
   }

@@ -7,9 +7,6 @@
 
 namespace convex::inline proof {
 
-/// The place of row a in a std::vector.
-inline std::size_t at(Index a) { return static_cast<std::size_t>(a); }
-
 /// The nearest-point problem over the rationals, as integers: its metric is A / unit, its linear term z /
 /// unit, its row a U_a / row_unit_a with the bound s_a / row_unit_a; units are positive. Multipliers of the
 /// integer rows, lambda^, stand for lambda_a = lambda^_a row_unit_a / unit.

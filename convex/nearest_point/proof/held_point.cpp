@@ -106,7 +106,7 @@ std::optional<Active> active_rows(const NearestPointProblem& problem, const Radi
   if (k > n) return std::nullopt;
   Active active;
   active.U.resize(k, n);
-  for (Index r = 0; r < k; ++r) active.U.row(r) = problem.U.row(rows[static_cast<std::size_t>(r)]);
+  for (Index r = 0; r < k; ++r) active.U.row(r) = problem.U.row(rows[at(r)]);
   if (k == 0) return active;
   if (!is_ordinary(active.U)) return std::nullopt;
   const Matrix V =
@@ -183,7 +183,7 @@ KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radi
   found.r2_radius.resize(k);
   for (Index r = 0; r < k; ++r) {
     CompensatedSum sum;
-    sum.add(problem.s[rows[static_cast<std::size_t>(r)]], 1);
+    sum.add(problem.s[rows[at(r)]], 1);
     for (Index i = 0; i < n; ++i) {
       sum.add(-active.U(r, i), point.q[i]);
       sum.add(-active.U(r, i), point.dq[i]);
@@ -196,7 +196,7 @@ KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radi
                weights = above(1) * (point.lambda.cwiseAbs() + point.dlambda.cwiseAbs());
   found.r1_radius += radii.z(n) + radii.A_times(size) + radii.rows_transposed_times(rows, weights, n);
   for (Index r = 0; r < k; ++r) {
-    const Index a = rows[static_cast<std::size_t>(r)];
+    const Index a = rows[at(r)];
     found.r2_radius[r] += radii.s(a) + radii.row_times(a, size);
   }
   return found;
@@ -241,7 +241,7 @@ HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, c
                      const Vector& lambda) {
   const auto k = static_cast<Index>(rows.size());
   HeldPoint point{q, Vector::Zero(problem.dimension()), Vector(k), Vector::Zero(k), {}, 0};
-  for (Index r = 0; r < k; ++r) point.lambda[r] = lambda[rows[static_cast<std::size_t>(r)]];
+  for (Index r = 0; r < k; ++r) point.lambda[r] = lambda[rows[at(r)]];
   // Corrections until they no longer shrink the radius: where rows are open the bound takes its root.
   constexpr int most_corrections = 4;
   constexpr double still_shrinks = 0.25;

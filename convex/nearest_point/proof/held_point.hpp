@@ -15,7 +15,7 @@ class RadiiOf {
  public:
   explicit RadiiOf(const EntryRadii* radii) : radii_(radii) {}
   bool any() const { return radii_ != nullptr; }
-  /// Â x and Û_W x, Û_Wᵀ y and ŝ_W for x, y >= 0.
+  /// Â x and Û_S x, Û_Sᵀ y and ŝ_S for x, y >= 0.
   Vector A_times(const Vector& x) const {
     return any() ? Vector(radii_->A * x) : Vector(Vector::Zero(x.size()));
   }
@@ -54,7 +54,7 @@ struct Preconditioned {
 /// None when a number is out of the range that bounds are made for.
 std::optional<Preconditioned> preconditioned(const Metric&, const RadiiOf&);
 
-/// The active rows seen through X and T ≈ R⁻¹: Z = X U_Wᵀ T, ZᵀZ = I + Δ with |Δ|₂ <= delta < 1.
+/// The active rows seen through X and T ≈ R⁻¹: Z = X U_Sᵀ T, ZᵀZ = I + Δ with |Δ|₂ <= delta < 1.
 struct Active {
   Matrix U;  // the rows, k×n
   Matrix T, Z;
@@ -76,7 +76,7 @@ struct HeldPoint {
 HeldPoint held_point(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
                      const std::vector<Index>& rows, const Vector& q, const Vector& lambda);
 
-/// At least ||Aq - z - U_Wᵀ(lambda + dlambda)||_(A⁻¹) of a held point, its dq left out.
+/// At least ||Aq - z - U_Sᵀ(lambda + dlambda)||_(A⁻¹) of a held point, its dq left out.
 double unbalanced_above(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
                         const std::vector<Index>& rows, HeldPoint);
 

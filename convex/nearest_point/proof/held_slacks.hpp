@@ -31,7 +31,7 @@ class HeldSlacks {
     std::vector<OpenRow> found;
     Vector row(n);
     for (Index a = 0; a < problem_.rows(); ++a) {
-      if (held_[static_cast<std::size_t>(a)]) continue;
+      if (held_[at(a)]) continue;
       problem_.U.copy_row(a, row);
       const double s = problem_.s[a];
       const double uncertain = above(radii_.s(a) + radii_.row_times(a, size_ + hidden));

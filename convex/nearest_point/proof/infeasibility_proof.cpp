@@ -15,7 +15,7 @@ namespace convex::inline proof {
 namespace {
 
 /// The rows with weights.
-struct Support : TouchedRows {
+struct Support : RestrictedRows {
   std::vector<Index> rows;
   Vector w;
   std::vector<bool> two_sided;
@@ -28,7 +28,7 @@ Support support(const NearestPointProblem& problem, const Vector& w) {
   // The first one's weight is the unit of the others.
   for (Index& a : rows)
     if (w[a] > w[rows.front()]) std::swap(a, rows.front());
-  Support found{touched_rows(problem, rows), rows, w(rows), {}};
+  Support found{restricted_rows(problem, rows), rows, w(rows), {}};
   for (Index a : rows) found.two_sided.push_back(problem.is_two_sided(a));
   return found;
 }
@@ -40,13 +40,13 @@ std::optional<InfeasibilityProof> by_whole_numbers(const Support& rows, Index m)
   const double smallest = rows.w.cwiseAbs().minCoeff();
   const Vector w = (rows.w / smallest).array().round();
   if (!(w.cwiseAbs().maxCoeff() <= most)) return std::nullopt;
-  InfeasibilityProof proof{ProofLevel::exact, Vector::Zero(m), IntegerVector(static_cast<std::size_t>(m), 0)};
+  InfeasibilityProof proof{ProofLevel::exact, Vector::Zero(m), IntegerVector(at(m), 0)};
   ExactSum gap;
   for (std::size_t r = 0; r < rows.rows.size(); ++r) {
     const Index k = static_cast<Index>(r);
     if (w[k] < 0 && !rows.two_sided[r]) return std::nullopt;
     gap.add_product(w[k], rows.s[k]);
-    proof.weights[static_cast<std::size_t>(rows.rows[r])] = static_cast<std::int64_t>(w[k]);
+    proof.weights[at(rows.rows[r])] = static_cast<std::int64_t>(w[k]);
   }
   if (gap.sign() <= 0) return std::nullopt;
   const GridSum on_grid(w);
@@ -73,10 +73,9 @@ std::optional<InfeasibilityProof> by_fractions(const Support& rows, Index m) {
   if (rows.w[0] < 0)
     for (Integer& weight : w) weight = -weight;
   if (!proves_infeasibility(exact, w)) return std::nullopt;
-  InfeasibilityProof proof{ProofLevel::exact, Vector::Zero(m), IntegerVector(static_cast<std::size_t>(m), 0)};
+  InfeasibilityProof proof{ProofLevel::exact, Vector::Zero(m), IntegerVector(at(m), 0)};
   proof.farkas(rows.rows) = rounded_weights(w, exact.s);
-  for (std::size_t r = 0; r < rows.rows.size(); ++r)
-    proof.weights[static_cast<std::size_t>(rows.rows[r])] = w[r];
+  for (std::size_t r = 0; r < rows.rows.size(); ++r) proof.weights[at(rows.rows[r])] = w[r];
   return proof;
 }
 
@@ -115,14 +114,14 @@ std::optional<InfeasibilityProof> by_enclosure(const Support& rows, Index m) {
   gap.add(rows.s[0], 1);
   double hidden = 0;
   for (Index k = 0; k < r; ++k) {
-    if (!rows.two_sided[static_cast<std::size_t>(k + 1)] && !(c[k] > radius)) return std::nullopt;
+    if (!rows.two_sided[at(k + 1)] && !(c[k] > radius)) return std::nullopt;
     gap.add(rows.s[k + 1], c[k]);
     hidden += radius * std::abs(rows.s[k + 1]);
   }
   if (!(below(gap.result().value) > above(gap.result().radius + above(hidden)))) return std::nullopt;
   InfeasibilityProof proof{ProofLevel::enclosure, Vector::Zero(m), {}};
   proof.farkas[rows.rows[0]] = 1;
-  for (Index k = 0; k < r; ++k) proof.farkas[rows.rows[static_cast<std::size_t>(k + 1)]] = c[k];
+  for (Index k = 0; k < r; ++k) proof.farkas[rows.rows[at(k + 1)]] = c[k];
   return proof;
 }
 

@@ -7,7 +7,7 @@
 namespace convex::inline proof {
 namespace {
 
-std::size_t place_of(Index k) { return static_cast<std::size_t>(k); }
+std::size_t place_of(Index k) { return at(k); }
 
 /// A direction d with u_a·d about `length_a` on one-sided rows and 0 on two-sided ones, as short as can be.
 std::optional<Vector> opening(const NearestPointProblem& problem, const std::vector<Index>& rows,
@@ -39,7 +39,7 @@ Range along(const Vector& row, const RadiiOf& radii, Index a, const Vector& d, d
   return {product - above(off), product + above(off)};
 }
 
-/// ||u - U_Wᵀc||_(A⁻¹) at most, for the best c that doubles find: 0 for a row that depends on those held.
+/// ||u - U_Sᵀc||_(A⁻¹) at most, for the best c that doubles find: 0 for a row that depends on those held.
 double distance_from_held(const Vector& u, const RadiiOf& radii, Index a, const Preconditioned& P,
                           const Active& active, const std::vector<Index>& held) {
   const Index n = P.dimension(), k = active.U.rows();
@@ -91,7 +91,7 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   const double mend = k > 0 ? above(weak * norm_above(active.T.cwiseAbs().transpose() * missed)) : 0;
   const double stride = above(length_above(P, radii, *d) + mend);
 
-  // How far every row opens, and what that costs: λ_W·U_W d.
+  // How far every row opens, and what that costs: λ_S·U_S d.
   double cost = 0, steepest = 0;
   for (Index r = 0; r < k; ++r) {
     if (two_sided[place_of(held[place_of(r)])]) continue;
@@ -113,10 +113,10 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
     step = std::max(step, above(o.below_zero / opens));
     off_held = std::max(off_held, above(distance_from_held(row, radii, o.row, P, active, held) / opens));
   }
-  // P(q*) <= P(q_W + step d): λ_W·U_W(q* - q_W) + ½||q* - q_W||² <= κ.
+  // P(q*) <= P(q_S + step d): λ_S·U_S(q* - q_S) + ½||q* - q_S||² <= κ.
   const double kappa = above(step * cost + 0.5 * above(step * step) * above(stride * stride));
   const double crude = above(std::sqrt(2 * kappa));
-  // Along the rows held; and across them, where only the open rows push, Σ λ*_d (u_d·d) <= (A q* - z)·d.
+  // Along the working set; and across them, where only the open rows push, Σ λ*_d (u_d·d) <= (A q* - z)·d.
   const double held_part = above(weak * steepest * kappa);
   const double across = above(off_held * above(cost + crude * stride));
   OpenBound found{above(held_part + across), std::max(crude, above(step * stride))};

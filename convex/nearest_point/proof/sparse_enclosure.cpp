@@ -50,7 +50,7 @@ double guessed_least_eigenvalue(const linear_algebra::SparseCholesky& factor, In
 /// The power of two near 1/sqrt(x): scaling by it rounds nothing.
 double scale_of(double x) { return std::ldexp(1.0, -std::ilogb(x) / 2); }
 
-/// A = diag(1/d) A' diag(1/d) and U_W = diag(1/r) U' diag(1/d) with A' and U' of ordinary size.
+/// A = diag(1/d) A' diag(1/d) and U_S = diag(1/r) U' diag(1/d) with A' and U' of ordinary size.
 struct Balanced {
   SparseMatrix A;
   SparseRows U;
@@ -113,7 +113,7 @@ std::optional<double> least_of_rows(const SparseRows& U, double uncertainty) {
 }
 
 struct ResidualBounds {
-  Vector r1, r2;  ///< |z + U_Wᵀlambda - A q|, |s_W - U_W q|, at least
+  Vector r1, r2;  ///< |z + U_Sᵀlambda - A q|, |s_S - U_S q|, at least
 };
 
 ResidualBounds residuals_above(const NearestPointProblem& problem, const RadiiOf& radii,

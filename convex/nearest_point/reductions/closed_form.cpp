@@ -11,12 +11,7 @@
 namespace convex::inline reductions {
 namespace {
 
-/// As in refinement.cpp: what may be missing at the end, what corrections made of rounding are, how slowly
-/// they may shrink, and how many there are at most.
-constexpr double at_rounding = 0x1p-80, slowest_contraction = 0.25;
-constexpr int most_corrections = 40;
-
-/// The point with the row held, or without it, and how far it may be off.
+/// The point with the row of the working set, or without it, and how far it may be off.
 struct Point {
   DoubleDoubleVector q, lambda{1};
   Vector last;  ///< the last correction
@@ -48,8 +43,8 @@ class ClosedForm {
     const double of_A = problem_.A.factor_condition(), of_pull = pull_rounding(of_A, 1);
     // As in refinement.cpp: residuals are rounded once, their terms in twice the precision.
     const double of_residuals = 8 * unit_roundoff * unit_roundoff * of_A * scale;
-    double contraction = std::min(slowest_contraction / 2, expected_contraction(of_A, 1, false));
-    for (int k = 0; k < most_corrections; ++k) {
+    double contraction = std::min(trusted_contraction / 2, expected_contraction(of_A, 1, false));
+    for (int k = 0; k < most_refinements; ++k) {
       const Vector rest = stationarity_residual(problem_, point.q, rows, point.lambda);
       Vector dq = problem_.A.solve(rest);
       double pull = 0;
@@ -63,7 +58,7 @@ class ClosedForm {
       const double size = problem_.A.norm(dq), floor = at_rounding * scale;
       point.last = dq;
       if (k > 0 && size > floor) contraction = std::max(contraction, size / previous);
-      if (!(contraction < slowest_contraction)) return point;
+      if (!(contraction < trusted_contraction)) return point;
       point.remaining = size * contraction / (1 - contraction) + of_pull * pull;
       previous = size;
       // What the two parts of a correction cancel to says little of them.
@@ -74,14 +69,13 @@ class ClosedForm {
         break;
       }
     }
-    double silenced = 0;
+    double dropped = 0;
     for (Index i = 0; i < point.q.size(); ++i)
       if (std::abs(point.q.hi[i]) <= 2 * std::abs(point.last[i])) {
-        silenced += problem_.A.diagonal()[i] * point.q.hi[i] * point.q.hi[i];
+        dropped += problem_.A.diagonal()[i] * point.q.hi[i] * point.q.hi[i];
         point.q.hi[i] = point.q.lo[i] = 0;
       }
-    point.remaining +=
-        std::sqrt(static_cast<double>(point.q.size()) * silenced);  // ||x||_A² <= n Σ a_ii x_i²
+    point.remaining += std::sqrt(static_cast<double>(point.q.size()) * dropped);  // ||x||_A² <= n Σ a_ii x_i²
     return point;
   }
 

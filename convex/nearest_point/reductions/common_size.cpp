@@ -54,7 +54,7 @@ CommonSize::CommonSize(const NearestPointProblem& original)
   if (mass != 1) problem.A = original.A.scaled(1 / mass);
   const Vector root = problem.A.diagonal().cwiseSqrt();
   Vector all_units(m), bound(m);
-  // What the rows ask for, and the forces, as lengths of motions.
+  // What the rows ask for, and z, as lengths of motions.
   double size = original.z.size() > 0 ? (original.z / mass).cwiseQuotient(root).cwiseAbs().maxCoeff() : 0;
   for (Index a = 0; a < m; ++a) {
     double length = 0;
@@ -103,8 +103,8 @@ Solution CommonSize::restored(const NearestPointProblem& original, Solution foun
     return all;
   };
   bool is_known = is_ordinary;
-  for (Index& a : found.basis) a = rows[static_cast<std::size_t>(a)];
-  for (LeftOutRow& out : found.model.left_out) out.row = rows[static_cast<std::size_t>(out.row)];
+  for (Index& a : found.basis) a = rows[at(a)];
+  for (LeftOutRow& out : found.model.left_out) out.row = rows[at(out.row)];
   if (found.farkas.size() > 0) {
     found.farkas = over_all(found.farkas.cwiseQuotient(row_unit));
     const double least = (found.farkas.array() != 0).select(found.farkas.cwiseAbs(), infinity).minCoeff();
@@ -122,7 +122,7 @@ Solution CommonSize::restored(const NearestPointProblem& original, Solution foun
       found.slack[rows[k]] = slack[row] * unit * row_unit[row];
     }
     for (Index a = 0; a < m; ++a) {
-      if (kept[static_cast<std::size_t>(a)]) continue;
+      if (kept[at(a)]) continue;
       const double reached = original.U.absolute_dot(a, size) * unit;
       is_known = is_known && 2 * reached <= -original.s[a];
       if (!found.model.islands.empty()) found.model.left_out.push_back({a, LeftOutBecause::out_of_reach});

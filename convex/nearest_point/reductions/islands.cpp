@@ -13,14 +13,14 @@ constexpr double sparse_island_part = 0.25;
 /// Sets of coordinates, merged two by two; the least coordinate stands for its set.
 class DisjointSets {
  public:
-  explicit DisjointSets(Index n) : parent_(static_cast<std::size_t>(n)), count_(n) {
+  explicit DisjointSets(Index n) : parent_(at(n)), count_(n) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
   Index count() const { return count_; }
   Index find(Index i) {
-    while (parent_[static_cast<std::size_t>(i)] != i) {
-      Index& up = parent_[static_cast<std::size_t>(i)];
-      up = parent_[static_cast<std::size_t>(up)];
+    while (parent_[at(i)] != i) {
+      Index& up = parent_[at(i)];
+      up = parent_[at(up)];
       i = up;
     }
     return i;
@@ -29,7 +29,7 @@ class DisjointSets {
     i = find(i);
     j = find(j);
     if (i == j) return;
-    parent_[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
+    parent_[at(std::max(i, j))] = std::min(i, j);
     --count_;
   }
 
@@ -55,7 +55,7 @@ void merge_through_A(const Metric& A, DisjointSets& sets) {
 /// Merges the coordinates of each row; first: one coordinate of each, -1 for none.
 void merge_through_rows(const ConstraintRows& U, DisjointSets& sets, std::vector<Index>& first) {
   for (Index a = 0; a < U.count(); ++a) {
-    Index& seen = first[static_cast<std::size_t>(a)];
+    Index& seen = first[at(a)];
     const auto take = [&](Index i, double value) {
       if (value == 0) return;
       if (seen < 0)
@@ -79,19 +79,15 @@ Metric metric_block(const Metric& A, const std::vector<Index>& coordinates, cons
   if (A.kind() == MetricKind::dense) {
     Matrix block(n, n);
     for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i)
-        block(i, j) = A.dense_gram()(coordinates[static_cast<std::size_t>(i)],
-                                     coordinates[static_cast<std::size_t>(j)]);
+      for (Index i = 0; i < n; ++i) block(i, j) = A.dense_gram()(coordinates[at(i)], coordinates[at(j)]);
     return Metric::dense(block);
   }
   if (A.kind() == MetricKind::sparse) {
     std::vector<Eigen::Triplet<double>> entries;
     for (Index j = 0; j < n; ++j)
-      for (SparseMatrix::InnerIterator it(A.sparse_gram(), coordinates[static_cast<std::size_t>(j)]); it;
-           ++it)
+      for (SparseMatrix::InnerIterator it(A.sparse_gram(), coordinates[at(j)]); it; ++it)
         if (it.value() != 0)
-          entries.emplace_back(static_cast<int>(place[static_cast<std::size_t>(it.row())]),
-                               static_cast<int>(j), it.value());
+          entries.emplace_back(static_cast<int>(place[at(it.row())]), static_cast<int>(j), it.value());
     SparseMatrix block(n, n);
     block.setFromTriplets(entries.begin(), entries.end());
     const double all = static_cast<double>(n) * static_cast<double>(n);
@@ -100,7 +96,7 @@ Metric metric_block(const Metric& A, const std::vector<Index>& coordinates, cons
     return dense ? Metric::dense(Matrix(block)) : Metric::sparse(block);
   }
   Vector diagonal(n);
-  for (Index i = 0; i < n; ++i) diagonal[i] = A.diagonal()[coordinates[static_cast<std::size_t>(i)]];
+  for (Index i = 0; i < n; ++i) diagonal[i] = A.diagonal()[coordinates[at(i)]];
   return A.kind() == MetricKind::identity ? Metric::identity(n) : Metric::diagonal(diagonal);
 }
 
@@ -110,18 +106,18 @@ ConstraintRows row_block(const ConstraintRows& U, const std::vector<Index>& coor
   if (!U.is_sparse() || n <= small_island) {
     RowMatrix block = RowMatrix::Zero(m, n);
     for (Index k = 0; k < m; ++k) {
-      const Index a = rows[static_cast<std::size_t>(k)];
+      const Index a = rows[at(k)];
       if (U.is_sparse())
-        U.for_each_entry(a, [&](Index i, double u) { block(k, place[static_cast<std::size_t>(i)]) = u; });
+        U.for_each_entry(a, [&](Index i, double u) { block(k, place[at(i)]) = u; });
       else
-        for (Index i = 0; i < n; ++i) block(k, i) = U.dense()(a, coordinates[static_cast<std::size_t>(i)]);
+        for (Index i = 0; i < n; ++i) block(k, i) = U.dense()(a, coordinates[at(i)]);
     }
     return ConstraintRows(std::move(block));
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Index k = 0; k < m; ++k)
-    U.for_each_entry(rows[static_cast<std::size_t>(k)], [&](Index i, double u) {
-      entries.emplace_back(static_cast<int>(k), static_cast<int>(place[static_cast<std::size_t>(i)]), u);
+    U.for_each_entry(rows[at(k)], [&](Index i, double u) {
+      entries.emplace_back(static_cast<int>(k), static_cast<int>(place[at(i)]), u);
     });
   SparseRows block(m, n);
   block.setFromTriplets(entries.begin(), entries.end());
@@ -134,46 +130,44 @@ Islands find_islands(const NearestPointProblem& problem) {
   const Index n = problem.dimension();
   DisjointSets sets(n);
   Islands found;
-  found.of_row.assign(static_cast<std::size_t>(problem.rows()), -1);
+  found.of_row.assign(at(problem.rows()), -1);
   merge_through_A(problem.A, sets);
   merge_through_rows(problem.U, sets, found.of_row);
-  found.of_coordinate.resize(static_cast<std::size_t>(n));
+  found.of_coordinate.resize(at(n));
   for (Index i = 0; i < n; ++i) {
     const Index root = sets.find(i);  // the least of its set, so numbered already unless it is i
-    found.of_coordinate[static_cast<std::size_t>(i)] =
-        root == i ? found.count++ : found.of_coordinate[static_cast<std::size_t>(root)];
+    found.of_coordinate[at(i)] = root == i ? found.count++ : found.of_coordinate[at(root)];
   }
   for (Index& island : found.of_row)
-    if (island >= 0) island = found.of_coordinate[static_cast<std::size_t>(island)];
+    if (island >= 0) island = found.of_coordinate[at(island)];
   return found;
 }
 
 IslandLists list_islands(const Islands& islands) {
   IslandLists lists;
-  lists.coordinates.resize(static_cast<std::size_t>(islands.count));
-  lists.rows.resize(static_cast<std::size_t>(islands.count));
+  lists.coordinates.resize(at(islands.count));
+  lists.rows.resize(at(islands.count));
   for (std::size_t i = 0; i < islands.of_coordinate.size(); ++i)
-    lists.coordinates[static_cast<std::size_t>(islands.of_coordinate[i])].push_back(static_cast<Index>(i));
+    lists.coordinates[at(islands.of_coordinate[i])].push_back(static_cast<Index>(i));
   for (std::size_t a = 0; a < islands.of_row.size(); ++a)
-    if (islands.of_row[a] >= 0)
-      lists.rows[static_cast<std::size_t>(islands.of_row[a])].push_back(static_cast<Index>(a));
+    if (islands.of_row[a] >= 0) lists.rows[at(islands.of_row[a])].push_back(static_cast<Index>(a));
   return lists;
 }
 
 NearestPointProblem island_problem(const NearestPointProblem& whole, const std::vector<Index>& coordinates,
                                    const std::vector<Index>& rows, std::vector<Index>& place) {
   const Index n = static_cast<Index>(coordinates.size()), m = static_cast<Index>(rows.size());
-  place.resize(static_cast<std::size_t>(whole.dimension()));
-  for (Index i = 0; i < n; ++i) place[static_cast<std::size_t>(coordinates[static_cast<std::size_t>(i)])] = i;
+  place.resize(at(whole.dimension()));
+  for (Index i = 0; i < n; ++i) place[at(coordinates[static_cast<std::size_t>(i)])] = i;
   NearestPointProblem part{metric_block(whole.A, coordinates, place),
                            Vector(n),
                            row_block(whole.U, coordinates, rows, place),
                            Vector(m),
                            {},
                            select(whole.radii, rows)};
-  for (Index i = 0; i < n; ++i) part.z[i] = whole.z[coordinates[static_cast<std::size_t>(i)]];
+  for (Index i = 0; i < n; ++i) part.z[i] = whole.z[coordinates[at(i)]];
   for (Index k = 0; k < m; ++k) {
-    const Index a = rows[static_cast<std::size_t>(k)];
+    const Index a = rows[at(k)];
     part.s[k] = whole.s[a];
     if (whole.is_two_sided(a)) part.two_sided.push_back(k);
   }

@@ -23,19 +23,17 @@ void JoinedIslands::add(Solution part, const std::vector<Index>& coordinates,
     solution_.lambda[rows[k]] = part.lambda[static_cast<Index>(k)];
     solution_.slack[rows[k]] = part.slack[static_cast<Index>(k)];
   }
-  for (Index k : part.basis) solution_.basis.push_back(rows[static_cast<std::size_t>(k)]);
+  for (Index k : part.basis) solution_.basis.push_back(rows[at(k)]);
   error_ += part.error_bound * part.error_bound;
   rounding_ += part.rounding * part.rounding;
   acceleration_ += part.acceleration_norm * part.acceleration_norm;
   linear_ += part.force_norm * part.force_norm;
   solution_.steps += part.steps;
   for (Island island : part.model.islands) {
-    if (!coordinates.empty())
-      island.first_coordinate = coordinates[static_cast<std::size_t>(island.first_coordinate)];
+    if (!coordinates.empty()) island.first_coordinate = coordinates[at(island.first_coordinate)];
     solution_.model.islands.push_back(island);
   }
-  for (LeftOutRow out : part.model.left_out)
-    solution_.model.left_out.push_back({rows[static_cast<std::size_t>(out.row)], out.why});
+  for (LeftOutRow out : part.model.left_out) solution_.model.left_out.push_back({rows[at(out.row)], out.why});
   if (solution_.undecided.empty()) solution_.undecided = part.undecided;
   const double flops = part.model.flops();
   // The name of the whole is that of its hardest island.

@@ -19,7 +19,7 @@ ScaledProblem::ScaledProblem(const NearestPointProblem& original)
   problem.U = divided(original.U, rows, length);
   problem.s = original.s(rows).cwiseQuotient(length);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    two_sided.push_back(is_two_sided[static_cast<std::size_t>(rows[k])]);
+    two_sided.push_back(is_two_sided[at(rows[k])]);
     if (two_sided.back()) problem.two_sided.push_back(static_cast<Index>(k));
   }
   const Vector gap = problem.s - problem.U.times(problem.A.solve(problem.z));

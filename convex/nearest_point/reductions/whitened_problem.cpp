@@ -14,14 +14,14 @@ WhitenedProblem::WhitenedProblem(const NearestPointProblem& problem) {
   for (Index a = 0; a < m; ++a)
     if (lengths[a] > 0) {
       rows.push_back(a);
-      free.push_back(two_sided[static_cast<std::size_t>(a)]);
+      free.push_back(two_sided[at(a)]);
     }
   const Index k = static_cast<Index>(rows.size());
   V.resize(n, k);
   b.resize(k);
   length.resize(k);
   for (Index j = 0; j < k; ++j) {
-    const Index a = rows[static_cast<std::size_t>(j)];
+    const Index a = rows[at(j)];
     length[j] = lengths[a];
     V.col(j) = all.col(a) / lengths[a];
     b[j] = problem.s[a] / lengths[a] - V.col(j).dot(w_free);
@@ -39,13 +39,13 @@ std::vector<Index> WhitenedProblem::free_columns() const {
 
 Vector WhitenedProblem::multipliers(const NearestPointProblem& problem, const Vector& y) const {
   Vector lambda = Vector::Zero(problem.rows());
-  for (Index a = 0; a < size(); ++a) lambda[rows[static_cast<std::size_t>(a)]] = y[a] * unit / length[a];
+  for (Index a = 0; a < size(); ++a) lambda[rows[at(a)]] = y[a] * unit / length[a];
   return lambda;
 }
 
 Vector WhitenedProblem::weights(const NearestPointProblem& problem, const Vector& y) const {
   Vector found = Vector::Zero(problem.rows());
-  for (Index a = 0; a < size(); ++a) found[rows[static_cast<std::size_t>(a)]] = y[a] / length[a];
+  for (Index a = 0; a < size(); ++a) found[rows[at(a)]] = y[a] / length[a];
   return found;
 }
 

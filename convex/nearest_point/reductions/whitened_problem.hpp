@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/nearest_point/methods/crossover.hpp"
+#include "convex/nearest_point/problem.hpp"
 
 namespace convex::inline reductions {
 
@@ -18,7 +18,7 @@ struct WhitenedProblem {
   Vector length;            ///< |v_a|
 
   Index size() const { return b.size(); }
-  bool is_free(Index a) const { return free[static_cast<std::size_t>(a)]; }
+  bool is_free(Index a) const { return free[at(a)]; }
   std::vector<Index> free_columns() const;
   /// lambda of the problem from y: m.
   Vector multipliers(const NearestPointProblem&, const Vector& y) const;

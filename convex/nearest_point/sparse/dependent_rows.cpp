@@ -37,9 +37,8 @@ class Residues {
     constexpr int mantissa_bits = 53;
     int exponent = 0;
     const auto digits = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), mantissa_bits));
-    const Residue size =
-        field_.times(field_.from_word(static_cast<Residue>(digits < 0 ? -digits : digits)),
-                     powers_[static_cast<std::size_t>(static_cast<int>(widest) + exponent - mantissa_bits)]);
+    const Residue size = field_.times(field_.from_word(static_cast<Residue>(digits < 0 ? -digits : digits)),
+                                      powers_[at(static_cast<int>(widest) + exponent - mantissa_bits)]);
     return digits < 0 ? field_.minus(0, size) : size;
   }
 
@@ -55,7 +54,7 @@ class RowEchelon {
              double most)
       : U_(U), s_(s), field_(prime), residues_(field_), most_(most) {
     find_order(rows);
-    const auto n = static_cast<std::size_t>(U.dimension());
+    const auto n = at(U.dimension());
     pivot_row_.resize(n);
     values_.assign(n + 1, 0);
     present_.assign(n + 1, false);
@@ -65,28 +64,27 @@ class RowEchelon {
   /// What is left of a row; with `take` an independent one joins the echelon.
   Kind put(Index a, bool take) {
     const auto n = static_cast<int>(U_.dimension());
-    U_.for_each_entry(a,
-                      [&](Index i, double u) { set(place_[static_cast<std::size_t>(i)], residues_.of(u)); });
+    U_.for_each_entry(a, [&](Index i, double u) { set(place_[at(i)], residues_.of(u)); });
     set(n, residues_.of(s_[a]));
     std::vector<Term> left;
     while (!heap_.empty()) {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
       const int column = heap_.back();
       heap_.pop_back();
-      present_[static_cast<std::size_t>(column)] = false;
-      const Residue value = values_[static_cast<std::size_t>(column)];
+      present_[at(column)] = false;
+      const Residue value = values_[at(column)];
       if (value == 0) continue;
-      if (!left.empty() || column == n || pivot_row_[static_cast<std::size_t>(column)].empty())
+      if (!left.empty() || column == n || pivot_row_[at(column)].empty())
         left.push_back({column, value});  // what comes after the first is reduced when it has to be
       else
-        subtract(pivot_row_[static_cast<std::size_t>(column)], value);
+        subtract(pivot_row_[at(column)], value);
     }
     if (left.empty()) return Kind::implied;
     if (left.front().column == n) return Kind::contradicting;
     if (take) {
       const Residue inverse = field_.inverse(left.front().value);
       for (Term& term : left) term.value = field_.times(term.value, inverse);
-      pivot_row_[static_cast<std::size_t>(left.front().column)] = std::move(left);
+      pivot_row_[at(left.front().column)] = std::move(left);
     }
     return Kind::independent;
   }
@@ -104,24 +102,24 @@ class RowEchelon {
         for (std::size_t l = 0; l < k; ++l) edges.emplace_back(columns[l], columns[k]);
     }
     const linear_algebra::Neighbours graph(U_.dimension(), static_cast<Index>(edges.size()),
-                                           [&](Index k) { return edges[static_cast<std::size_t>(k)]; });
+                                           [&](Index k) { return edges[at(k)]; });
     place_ = elimination_order(graph).new_place;
   }
   void set(int column, Residue value) {
-    values_[static_cast<std::size_t>(column)] = value;
+    values_[at(column)] = value;
     meet(column);
   }
   void meet(int column) {
-    if (present_[static_cast<std::size_t>(column)]) return;
-    present_[static_cast<std::size_t>(column)] = true;
+    if (present_[at(column)]) return;
+    present_[at(column)] = true;
     heap_.push_back(column);
     std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
   }
   void subtract(const std::vector<Term>& pivot, Residue factor) {
     work_ += static_cast<double>(pivot.size());
     for (std::size_t k = 1; k < pivot.size(); ++k) {
-      Residue& value = values_[static_cast<std::size_t>(pivot[k].column)];
-      if (!present_[static_cast<std::size_t>(pivot[k].column)]) value = 0;
+      Residue& value = values_[at(pivot[k].column)];
+      if (!present_[at(pivot[k].column)]) value = 0;
       value = field_.minus(value, field_.times(factor, pivot[k].value));
       meet(pivot[k].column);
     }
@@ -145,14 +143,14 @@ Index length_of(const ConstraintRows& U, Index a) {
 
 std::optional<RowDependences> dependences_modulo(std::uint64_t prime, const ConstraintRows& U,
                                                  const Vector& s, const std::vector<Index>& held,
-                                                 const std::vector<Index>& touched, double most) {
+                                                 const std::vector<Index>& degenerate, double most) {
   const auto by_length = [&](std::vector<Index> rows) {
     std::stable_sort(rows.begin(), rows.end(),
                      [&](Index a, Index b) { return length_of(U, a) < length_of(U, b); });
     return rows;
   };
   std::vector<Index> all = held;
-  all.insert(all.end(), touched.begin(), touched.end());
+  all.insert(all.end(), degenerate.begin(), degenerate.end());
   RowEchelon echelon(U, s, all, prime, most);
   RowDependences found;
   for (Index a : by_length(held)) {
@@ -162,7 +160,7 @@ std::optional<RowDependences> dependences_modulo(std::uint64_t prime, const Cons
     if (echelon.is_too_long()) return std::nullopt;
   }
   std::vector<Index> besides;
-  for (Index a : touched) {
+  for (Index a : degenerate) {
     const RowEchelon::Kind kind = echelon.put(a, false);
     if (kind == RowEchelon::Kind::independent) besides.push_back(a);
     if (kind == RowEchelon::Kind::implied) found.implied.push_back(a);
@@ -181,10 +179,10 @@ std::optional<RowDependences> dependences_modulo(std::uint64_t prime, const Cons
 
 std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vector& s,
                                               const std::vector<Index>& held,
-                                              const std::vector<Index>& touched, double most) {
-  const auto first = dependences_modulo(large_primes.at(0), U, s, held, touched, most);
-  if (!first || first->independent.size() == held.size() + touched.size()) return first;  // proved
-  const auto second = dependences_modulo(large_primes.at(1), U, s, held, touched, most);
+                                              const std::vector<Index>& degenerate, double most) {
+  const auto first = dependences_modulo(large_primes.at(0), U, s, held, degenerate, most);
+  if (!first || first->independent.size() == held.size() + degenerate.size()) return first;  // proved
+  const auto second = dependences_modulo(large_primes.at(1), U, s, held, degenerate, most);
   return second && *second == *first ? first : std::nullopt;
 }
 

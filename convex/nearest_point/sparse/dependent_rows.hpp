@@ -8,12 +8,15 @@
 namespace convex::inline sparse {
 
 /// Which of some rows depend on others, and whether their bounds agree with that: for rows `held`, whose
-/// equations u_a·q = s_a hold, and rows `touched` besides.
+/// equations u_a·q = s_a hold, and rows `degenerate` besides.
 struct RowDependences {
-  std::vector<Index> independent;  ///< a basis of all of them, of rows held where that can be; increasing
-  std::vector<Index> implied;      ///< touched rows whose slack is 0 wherever the rows held hold; increasing
-  bool consistent = true;          ///< the equations of the rows held do not contradict each other
-  /// Touched rows that depend on those held and have another slack, the same wherever these hold; increasing.
+  std::vector<Index>
+      independent;  ///< a basis of all of them, of rows of the working set where that can be; increasing
+  std::vector<Index>
+      implied;  ///< degenerate rows whose slack is 0 wherever the rows of the working set hold; increasing
+  bool consistent = true;  ///< the equations of the rows of the working set do not contradict each other
+  /// Degenerate rows that depend on those held and have another slack, the same wherever these hold;
+  /// increasing.
   std::vector<Index> off_edge;
   bool operator==(const RowDependences&) const = default;
 };
@@ -26,6 +29,6 @@ struct RowDependences {
 /// multiplications than `most`.
 std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vector& s,
                                               const std::vector<Index>& held,
-                                              const std::vector<Index>& touched, double most);
+                                              const std::vector<Index>& degenerate, double most);
 
 }  // namespace convex::inline sparse

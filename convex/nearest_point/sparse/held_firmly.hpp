@@ -7,9 +7,10 @@
 namespace convex::inline sparse {
 
 /// What corrections leave of residuals of `rows`: powers of (I + S D)⁻¹, S = U A⁻¹Uᵀ in scaled units and D
-/// the weights of all rows held, applied to numbers without a pattern. It vanishes unless a combination of
-/// the rows held in which one of these has a part is 0 or nearly so: the power method for the least
-/// eigenvalue of S, to be trusted as a random start is (Dixon 1983). system: factored with these weights. m.
+/// the weights of all rows of the working set, applied to numbers without a pattern. It vanishes unless a
+/// combination of the working set in which one of these has a part is 0 or nearly so: the power method for
+/// the least eigenvalue of S, to be trusted as a random start is (Dixon 1983). system: factored with these
+/// weights. m.
 Vector slowest_residual(const BalancedProblem&, const RowSystem&, const std::vector<Index>& rows,
                         const Vector& weight);
 

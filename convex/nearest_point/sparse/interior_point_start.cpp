@@ -23,9 +23,9 @@ constexpr double part_of_free = 0.1, smallest = 1e-3;
 constexpr double well_inside = 10;
 constexpr int correctors = 2;
 
-/// Of rows held as they were in a problem like this one: one over the weight; the slowest corrections that
-/// are trusted; the part of what is asked to which they go on, and at most how many; the part of the
-/// multipliers' size that products begin with where some rows stay wrong.
+/// Of rows of the working set as they were in a problem like this one: one over the weight; the slowest
+/// corrections that are trusted; the part of what is asked to which they go on, and at most how many; the
+/// part of the multipliers' size that products begin with where some rows stay wrong.
 constexpr double held_delta = 1e-6, slowest_held = 0.5, part_of_asked = 0.1, part_of_size = 1e-5;
 constexpr int most_corrections = 10;
 
@@ -215,7 +215,7 @@ void InteriorPointStart::solve(const Vector& dual_rest, const Vector& primal_res
 Index InteriorPointStart::changes_of_sides() {
   Index changes = 0;
   for (Index a = 0; a < at_.lambda.size(); ++a) {
-    const auto k = static_cast<std::size_t>(a);
+    const auto k = at(a);
     if (side_[k] == looks_active(a)) continue;
     side_[k] = !side_[k];
     ++changes;

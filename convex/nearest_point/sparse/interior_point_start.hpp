@@ -19,13 +19,13 @@ class InteriorPointStart {
   /// multipliers grow beyond all bounds, as where rows contradict each other.
   End approach(double gap, bool until_steady = false);
   /// Begins, or begins again, with slacks and multipliers as large as the free motion violates the rows: for
-  /// problems in which rows held together are far from the answer.
+  /// problems in which rows of the working set together are far from the answer.
   void start_from_free_motion();
   /// Begins from a point with multipliers that solve a problem like this one: the rows that look active there
   /// are held, and exchanged as long as fewer are wrong each time. Where none is wrong any more, that is the
-  /// answer: how far from it corrections of the rows held leave q, in the norm of A, at most about this part
-  /// of it. Else +inf, and pairs of multiplier and slack begin with what was missing; or as ever, where that
-  /// is as far away as any start.
+  /// answer: how far from it corrections of the rows of the working set leave q, in the norm of A, at most
+  /// about this part of it. Else +inf, and pairs of multiplier and slack begin with what was missing; or as
+  /// ever, where that is as far away as any start.
   double start_near(const Vector& q, const Vector& lambda, double part);
   bool began_near() const { return began_near_; }
 

@@ -36,7 +36,7 @@ class ProportionedGradients {
     Vector fallen = Vector::Zero(watched_steps);
     const Index limit = accuracy_.step_limit > 0 ? accuracy_.step_limit : usual_limit;
     Solution solution;
-    const double force = std::sqrt(std::max(0.0, problem_.z.dot(by_inverse(problem_.z))));
+    const double z_norm = std::sqrt(std::max(0.0, problem_.z.dot(by_inverse(problem_.z))));
     double error = std::numeric_limits<double>::infinity();
     Index k = 0;
     for (; k < limit; ++k) {
@@ -84,7 +84,7 @@ class ProportionedGradients {
       fallen[k % watched_steps] = fall;
       if (k + 1 < watched_steps) continue;
       error = std::sqrt(2 * std::max(0.0, fallen.sum()));
-      if (error <= accuracy_.tolerance * std::max(force, problem_.A.norm(q_))) break;
+      if (error <= accuracy_.tolerance * std::max(z_norm, problem_.A.norm(q_))) break;
     }
     find_residual();
     solution.method = "proportioned-gradients";
@@ -95,15 +95,15 @@ class ProportionedGradients {
     for (Index a = 0; a < m; ++a)
       if (!(scale_[a] > 0)) solution.slack[a] = -problem_.s[a];
     solution.acceleration_norm = problem_.A.norm(q_);
-    solution.force_norm = force;
+    solution.force_norm = z_norm;
     solution.error_bound = error;
-    const bool is_near = error <= accuracy_.tolerance * std::max(force, solution.acceleration_norm);
+    const bool is_near = error <= accuracy_.tolerance * std::max(z_norm, solution.acceleration_norm);
     solution.status = is_near ? Status::solved : Status::inaccurate;
     return solution;
   }
 
  private:
-  bool is_free(Index a) const { return free_[static_cast<std::size_t>(a)]; }
+  bool is_free(Index a) const { return free_[at(a)]; }
   Vector by_inverse(const Vector& c) const {
     return inverse_.size() > 0 ? Vector(inverse_.cwiseProduct(c)) : problem_.A.solve(c);
   }

@@ -3,7 +3,6 @@
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_algebra/sparse_cholesky.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
-#include "convex/nearest_point/methods/crossover.hpp"
 
 namespace convex::inline sparse {
 

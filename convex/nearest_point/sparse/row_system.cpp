@@ -76,9 +76,9 @@ bool RowSystem::factor(const Vector& weight) {
   for (double a : pattern_.of_A) values[*slot++] += a;
   const Index m = static_cast<Index>(pattern_.first.size()) - 1;
   for (Index a = 0; a < m; ++a) {
-    const Index end = pattern_.first[static_cast<std::size_t>(a) + 1];
-    for (Index k = pattern_.first[static_cast<std::size_t>(a)]; k < end; ++k)
-      values[*slot++] += weight[a] * pattern_.of_rows[static_cast<std::size_t>(k)];
+    const Index end = pattern_.first[at(a) + 1];
+    for (Index k = pattern_.first[at(a)]; k < end; ++k)
+      values[*slot++] += weight[a] * pattern_.of_rows[at(k)];
   }
   // A row without weight is cut off.
   std::size_t entry = 0;

@@ -28,10 +28,6 @@ constexpr std::array gaps{1e-7, 1e-9, 1e-12, 1e-15, 1e-18};
 constexpr int few_exchanges = 3;
 constexpr double few_rows = 0.01;
 
-/// The weight on the multipliers, and how it shrinks where it makes corrections slow.
-constexpr double first_delta = 1e-7, smaller = 1e-2;
-constexpr int most_deltas = 3;
-
 /// Exchanges of rows in a run that did not lower the number of wrong ones.
 constexpr int patience = 2;
 constexpr int most_exchanges = 60;
@@ -71,13 +67,13 @@ class SparseActiveSet {
       }
       if (start.q().size() != problem_.dimension()) break;
       for (const double part : {0.0, data_roundings * unit_roundoff}) {
-        silence_ = part;
+        zero_part_ = part;
         take_over(start);
-        central_ = silence_ == 0;
+        central_ = zero_part_ == 0;
         if (exchange(k == 0 ? few_exchanges : most_exchanges, k == 0 ? few_rows : 1)) return answer();
         if (k == 0) break;
       }
-      silence_ = 0;
+      zero_part_ = 0;
       if (end == InteriorPointStart::End::stalled || end == InteriorPointStart::End::unbounded) break;
     }
     Solution solution;
@@ -109,9 +105,9 @@ class SparseActiveSet {
                                   : even_weights(problem_.rows(), rows_, delta);
       delta_ = 1 / std::max(1.0, weight.maxCoeff());
       weight_ = weight;
-      if (!refine_rows(problem_, scaled_, system_, rows_, weight, silence_, point_)) return false;
+      if (!refine_rows(problem_, scaled_, system_, rows_, weight, zero_part_, point_)) return false;
       if (point_.converged || point_.wrong_signs) return true;
-      if (j >= 0) delta *= smaller;
+      if (j >= 0) delta *= smaller_delta;
     }
     return true;
   }
@@ -131,7 +127,7 @@ class SparseActiveSet {
       if (!refine()) return false;
       const bool refined = point_.converged;
       Index wrong = judge();
-      if (wrong == 0 && refined && (has_weak_ || !touched_.empty())) {
+      if (wrong == 0 && refined && (has_weak_ || !degenerate_.empty())) {
         point_.to_the_end = true;
         const bool ended = refine();
         point_.to_the_end = false;
@@ -178,7 +174,7 @@ class SparseActiveSet {
     const double left = 4 * point_.remaining();
     const double size = std::max(1.0, point_.q.hi.cwiseQuotient(scaled_.coordinate).norm());
     slack_ = Vector::Zero(problem_.rows());
-    touched_.clear();
+    degenerate_.clear();
     has_weak_ = false;
     for (Index a : rows_) {
       const double lambda = point_.lambda.hi[a] / scaled_.multiplier[a];
@@ -197,9 +193,10 @@ class SparseActiveSet {
       if (held[static_cast<std::size_t>(a)]) continue;
       slack_[a] = slack(problem_, a, point_.q).value();
       const double over = slack_[a] / scaled_.bound[a];
-      if (std::abs(over) <= left + std::max(zero_of_pairs, 2 * silence_) * (size + std::abs(scaled_.s[a]))) {
+      if (std::abs(over) <=
+          left + std::max(zero_of_pairs, 2 * zero_part_) * (size + std::abs(scaled_.s[a]))) {
         slack_[a] = 0;
-        touched_.push_back(a);
+        degenerate_.push_back(a);
       }
       if (slack_[a] < 0) {
         active_[static_cast<std::size_t>(a)] = true;
@@ -225,7 +222,7 @@ class SparseActiveSet {
     solution.steps = steps_;
     const double unit =
         scaled_.coordinate.size() > 0 ? scaled_.coordinate[0] * std::sqrt(problem_.A.diagonal()[0]) : 1;
-    silence_noise(scaled_, point_);
+    drop_noise(scaled_, point_);
     solution.q = point_.q.hi;
     solution.lambda = point_.lambda.hi;
     solution.slack = slack_;
@@ -242,22 +239,23 @@ class SparseActiveSet {
     // eigenvalue.
     const double spread_of_units = scaled_.coordinate.maxCoeff() / scaled_.coordinate.minCoeff();
     const double inverse_norm = 2 * spread_of_units / std::sqrt(delta_);
-    if (silence_ > 0) doubtful_ = std::max(doubtful_, silence_ * (1 + size_of_q()));
-    solution.error_bound = unit * (2 * point_.remaining() + point_.silenced) + solution.rounding +
+    if (zero_part_ > 0) doubtful_ = std::max(doubtful_, zero_part_ * (1 + size_of_q()));
+    solution.error_bound = unit * (2 * point_.remaining() + point_.dropped) + solution.rounding +
                            unit * (point_.rest * point_.contraction + doubtful_) * inverse_norm *
                                std::sqrt(static_cast<double>(rows_.size() + 1));
-    const bool is_open = silence_ > 0 || doubtful_ > 0 || !solution.is_within(accuracy_);
+    const bool is_open = zero_part_ > 0 || doubtful_ > 0 || !solution.is_within(accuracy_);
     const double by_gap = is_open ? bound_by_gap(problem_, solution) : infinity;
     const bool is_sure = by_gap < solution.error_bound;  // whatever rows have to do with each other
     if (is_sure) solution.error_bound = by_gap;
     solution.status = solution.is_within(accuracy_) ? Status::solved : Status::inaccurate;
-    // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
+    // Rows of the working set that contradict each other by rounding: as the numbers stand there may be no
+    // such point.
     const bool is_settled = is_sure && solution.status == Status::solved;
-    if (!problem_.radii && !is_settled && (silence_ > 0 || doubtful_ > 0))
+    if (!problem_.radii && !is_settled && (zero_part_ > 0 || doubtful_ > 0))
       solution.undecided = open_question::dependence;
     if (solution.undecided.empty())
-      solution.undecided = decide_tight_rows({problem_, scaled_, system_, rows_, touched_}, point_.q, weight_,
-                                             accuracy_.limit, slack_);
+      solution.undecided = decide_tight_rows({problem_, scaled_, system_, rows_, degenerate_}, point_.q,
+                                             weight_, accuracy_.limit, slack_);
     if (!solution.undecided.empty()) {
       solution.status = Status::inaccurate;
       solution.basis = rows_;
@@ -275,11 +273,12 @@ class SparseActiveSet {
   RowSystem system_;
   SparsePoint point_;
   std::vector<bool> active_;
-  std::vector<Index> rows_, wrong_, touched_;
+  std::vector<Index> rows_, wrong_, degenerate_;
   Vector slack_, weight_;
   Index steps_ = 0, serious_ = 0;
-  bool central_ = false, has_weak_ = false;  ///< a one-sided row held whose multiplier counts as 0
-  double doubtful_ = 0, silence_ = 0, delta_ = first_delta;
+  bool central_ = false,
+       has_weak_ = false;  ///< a one-sided row of the working set whose multiplier counts as 0
+  double doubtful_ = 0, zero_part_ = 0, delta_ = first_delta;
 };
 
 /// Whether a slack is so small a part of its terms that nearly dependent rows may have made it of 0.

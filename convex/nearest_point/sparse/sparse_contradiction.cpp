@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "convex/nearest_point/active_set/contradiction_within_radii.hpp"
-#include "convex/nearest_point/methods/crossover.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
@@ -34,7 +34,7 @@ Solution sparse_contradiction(const NearestPointProblem& problem, const Balanced
     for (Index a : rows) w[a] -= weight[a] * along[a] * scaled.multiplier[a];
   }
   for (Index a : rows)
-    if (!scaled.two_sided[static_cast<std::size_t>(a)]) w[a] = std::max(0.0, w[a]);
+    if (!scaled.two_sided[at(a)]) w[a] = std::max(0.0, w[a]);
   const double reach = farthest_motion * problem.A.dual_norm(problem.z);
   if (!w.allFinite() || !(w.cwiseAbs().maxCoeff() > 0)) return solution;
   solution.farkas = w / w.cwiseAbs().maxCoeff();

@@ -32,10 +32,10 @@ bool plainly_negative(const BalancedProblem& scaled, const std::vector<Index>& r
                       const DoubleDoubleVector& lambda, const SparsePoint& point) {
   double push = 0;
   for (Index k = 0; k < static_cast<Index>(rows.size()); ++k)
-    push = std::max(push, std::abs(lambda.hi[k] / scaled.multiplier[rows[static_cast<std::size_t>(k)]]));
+    push = std::max(push, std::abs(lambda.hi[k] / scaled.multiplier[rows[at(k)]]));
   for (Index k = 0; k < static_cast<Index>(rows.size()); ++k) {
-    const Index a = rows[static_cast<std::size_t>(k)];
-    if (scaled.two_sided[static_cast<std::size_t>(a)]) continue;
+    const Index a = rows[at(k)];
+    if (scaled.two_sided[at(a)]) continue;
     if (lambda.hi[k] / scaled.multiplier[a] <
         -plainly * (point.last_lambda[a] + point.remaining() + rounding * push))
       return true;
@@ -43,13 +43,13 @@ bool plainly_negative(const BalancedProblem& scaled, const std::vector<Index>& r
   return false;
 }
 
-/// The terms of z + U_Wᵀlambda, whose sums in twice the precision are rounded by u² of them: multipliers of
+/// The terms of z + U_Sᵀlambda, whose sums in twice the precision are rounded by u² of them: multipliers of
 /// rows that are nearly opposite cancel there.
 double size_of_terms(const BalancedProblem& scaled, const std::vector<Index>& rows,
                      const DoubleDoubleVector& lambda) {
   Vector pull = Vector::Zero(scaled.s.size());
   for (Index k = 0; k < static_cast<Index>(rows.size()); ++k) {
-    const Index a = rows[static_cast<std::size_t>(k)];
+    const Index a = rows[at(k)];
     pull[a] = std::abs(lambda.hi[k]) / scaled.multiplier[a];
   }
   return (scaled.z.cwiseAbs() + scaled.U.cwiseAbs().transpose() * pull).norm();
@@ -60,14 +60,14 @@ constexpr double least_part = 1e-2;
 
 }  // namespace
 
-void silence_noise(const BalancedProblem& scaled, SparsePoint& point) {
-  Vector silenced = Vector::Zero(point.q.size());
+void drop_noise(const BalancedProblem& scaled, SparsePoint& point) {
+  Vector dropped = Vector::Zero(point.q.size());
   for (Index i = 0; i < point.q.size(); ++i)
     if (std::abs(point.q.hi[i]) <= 2 * point.remaining() * scaled.coordinate[i]) {
-      silenced[i] = point.q.hi[i] / scaled.coordinate[i];
+      dropped[i] = point.q.hi[i] / scaled.coordinate[i];
       point.q.hi[i] = point.q.lo[i] = 0;
     }
-  point.silenced = std::sqrt(std::max(0.0, silenced.dot(scaled.A * silenced)));
+  point.dropped = std::sqrt(std::max(0.0, dropped.dot(scaled.A * dropped)));
 }
 
 Vector even_weights(Index row_count, const std::vector<Index>& rows, double delta) {
@@ -90,14 +90,14 @@ Vector central_weights(const BalancedProblem& scaled, const std::vector<Index>& 
 }
 
 bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scaled, RowSystem& system,
-                 const std::vector<Index>& rows, const Vector& weight, double silence, SparsePoint& point) {
+                 const std::vector<Index>& rows, const Vector& weight, double zero, SparsePoint& point) {
   if (!system.factor(weight)) return false;
   const Index count = static_cast<Index>(rows.size());
   DoubleDoubleVector lambda(count);
   Vector r2(count), push = Vector::Zero(problem.rows()), dlambda(count);
   const Vector scale_of_q = scaled.coordinate;
   for (Index k = 0; k < count; ++k) {
-    const Index a = rows[static_cast<std::size_t>(k)];
+    const Index a = rows[at(k)];
     lambda.hi[k] = point.lambda.hi[a];
     lambda.lo[k] = point.lambda.lo[a];
   }
@@ -108,21 +108,21 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
   point.floor = 0;
   point.last_lambda = Vector::Zero(problem.rows());
   for (int k = 0; k < most_corrections; ++k) {
-    const Vector magnitude = silence > 0 ? Vector(point.q.hi.cwiseAbs()) : Vector();
+    const Vector magnitude = zero > 0 ? Vector(point.q.hi.cwiseAbs()) : Vector();
     const Vector r1 = stationarity_residual(problem, point.q, rows, lambda).cwiseQuotient(scaled.linear);
     for (Index j = 0; j < count; ++j) {
-      const Index a = rows[static_cast<std::size_t>(j)];
+      const Index a = rows[at(j)];
       r2[j] = -slack(problem, a, point.q).value() / scaled.bound[a];
-      if (silence > 0) {
+      if (zero > 0) {
         const double terms = std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude);
-        if (std::abs(r2[j]) * scaled.bound[a] <= silence * terms) r2[j] = 0;
+        if (std::abs(r2[j]) * scaled.bound[a] <= zero * terms) r2[j] = 0;
       }
       push[a] = r2[j] * weight[a];
     }
     const Vector dq = system.solve(r1 + scaled.U.transpose() * push);
     const Vector along = scaled.U * dq;
     for (Index j = 0; j < count; ++j) {
-      const Index a = rows[static_cast<std::size_t>(j)];
+      const Index a = rows[at(j)];
       const double step = (r2[j] - along[a]) * weight[a];
       point.last_lambda[a] = std::abs(step);
       dlambda[j] = step * scaled.multiplier[a];
@@ -155,7 +155,7 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
   }
   point.lambda = DoubleDoubleVector(problem.rows());
   for (Index k = 0; k < count; ++k) {
-    const Index a = rows[static_cast<std::size_t>(k)];
+    const Index a = rows[at(k)];
     point.lambda.hi[a] = lambda.hi[k];
     point.lambda.lo[a] = lambda.lo[k];
   }

@@ -7,14 +7,18 @@
 
 namespace convex::inline sparse {
 
+/// The weight on the multipliers, and how it shrinks where it makes corrections slow.
+inline constexpr double first_delta = 1e-7, smaller_delta = 1e-2;
+inline constexpr int most_deltas = 3;
+
 /// A point with its multipliers, as pairs of doubles, in the units of the original problem.
 struct SparsePoint {
   DoubleDoubleVector q, lambda;      ///< n; m
   Vector last_lambda;                ///< |last correction| of the multipliers, scaled: m
   double last = 0, contraction = 0;  ///< ||dq||_A of the last correction in scaled units, and its shrinking
   double floor = 0;         ///< what the rounding of residuals in twice the precision leaves of it, scaled
-  double silenced = 0;      ///< ||.||_A of what was taken for noise about zero, scaled
-  double rest = 0;          ///< the largest of U_W q - s_W before the last correction, scaled
+  double dropped = 0;       ///< ||.||_A of what was taken for noise about zero, scaled
+  double rest = 0;          ///< the largest of U_S q - s_S before the last correction, scaled
   bool to_the_end = false;  ///< corrections go on until rounding ends them
   bool converged = false;
   bool wrong_signs = false;  ///< ended early
@@ -24,7 +28,7 @@ struct SparsePoint {
 };
 
 /// Makes 0 of what may be missing in an entry of q.
-void silence_noise(const BalancedProblem&, SparsePoint&);
+void drop_noise(const BalancedProblem&, SparsePoint&);
 
 /// Weights for `refine_rows`: 1/delta on the rows given, 0 on the others.
 Vector even_weights(Index row_count, const std::vector<Index>& rows, double delta);
@@ -34,13 +38,13 @@ Vector even_weights(Index row_count, const std::vector<Index>& rows, double delt
 Vector central_weights(const BalancedProblem&, const std::vector<Index>& rows, double delta,
                        const SparsePoint& point);
 
-/// Corrects `point` towards A q - U_Wᵀlambda = z, U_W q = s_W by residuals of the original data in twice the
+/// Corrects `point` towards A q - U_Sᵀlambda = z, U_S q = s_S by residuals of the original data in twice the
 /// working precision; the preconditioner is that system with -1/weight in the corner (the augmented
 /// Lagrangian, Hestenes 1969, Powell 1969), so that redundant rows are no matter and each correction leaves
-/// 1 / (1 + weight·eigenvalue of U_W A⁻¹U_Wᵀ). Starting multipliers are changed as little as the equations
-/// allow, in units of the weights. rows: W, increasing. It ends early when a one-sided multiplier is plainly
+/// 1 / (1 + weight·eigenvalue of U_S A⁻¹U_Sᵀ). Starting multipliers are changed as little as the equations
+/// allow, in units of the weights. rows: S, increasing. It ends early when a one-sided multiplier is plainly
 /// negative, which is all there is to know. False when the factorisation breaks down.
 bool refine_rows(const NearestPointProblem&, const BalancedProblem&, RowSystem&,
-                 const std::vector<Index>& rows, const Vector& weight, double silence, SparsePoint& point);
+                 const std::vector<Index>& rows, const Vector& weight, double zero, SparsePoint& point);
 
 }  // namespace convex::inline sparse

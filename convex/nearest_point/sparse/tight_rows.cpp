@@ -24,9 +24,9 @@ bool contains(const std::vector<Index>& rows, Index a) {
 
 std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVector& q, const Vector& weight,
                                    double limit, Vector& slack) {
-  const auto& [problem, scaled, system, held, touched] = rows;
+  const auto& [problem, scaled, system, held, degenerate] = rows;
   std::vector<Index> tight = held;
-  tight.insert(tight.end(), touched.begin(), touched.end());
+  tight.insert(tight.end(), degenerate.begin(), degenerate.end());
   std::sort(tight.begin(), tight.end());
   // Rows that q keeps without rounding have no residual, however nearly they depend on each other.
   std::vector<Index> rounded, besides;
@@ -37,12 +37,12 @@ std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVect
     const Vector magnitude = q.hi.cwiseAbs();
     const std::vector<bool> is_tight = marked(problem.rows(), tight);
     for (Index a = 0; a < problem.rows(); ++a)
-      if (!is_tight[static_cast<std::size_t>(a)] &&
+      if (!is_tight[at(a)] &&
           slack[a] <= near_zero * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
         slack[a] = slack_at(problem, a, q.hi);
     return {};
   }
-  for (Index a : touched)
+  for (Index a : degenerate)
     if (contains(rounded, a)) besides.push_back(a);
   const double delta = 1 / std::max(1.0, weight.maxCoeff());
   const auto hold = [&](const std::vector<Index>& chosen, Vector& with) {
@@ -50,17 +50,17 @@ std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVect
     return system.factor(with);
   };
   Vector own = weight;
-  if (!touched.empty() && !hold(tight, own)) return open_question::conditioning;
+  if (!degenerate.empty() && !hold(tight, own)) return open_question::conditioning;
   const Vector slowest = slowest_residual(scaled, system, rounded, own);
   if (problem.radii)
     return is_held_firmly(slowest) || is_zero_within(problem, scaled, slowest) ? std::string_view()
                                                                                : open_question::dependence;
   if (!is_held_firmly(slowest)) {
     const double most = std::max(1.0, limit) * part_for_lists * most_word_operations;
-    const auto found = row_dependences(problem.U, problem.s, held, touched, most);
+    const auto found = row_dependences(problem.U, problem.s, held, degenerate, most);
     if (!found) return open_question::dependence;
     if (!found->consistent) return open_question::contradiction;
-    if (!found->off_edge.empty()) return open_question::touched;
+    if (!found->off_edge.empty()) return open_question::degenerate_rows;
     std::erase_if(rounded, [&](Index a) { return !contains(found->independent, a); });
     if (found->independent.size() == tight.size() || !hold(found->independent, own) ||
         !is_held_firmly(slowest_residual(scaled, system, rounded, own)))
@@ -69,7 +69,7 @@ std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVect
   }
   if (besides.empty()) return {};
   const auto slacks = slacks_if_kept(problem, q.hi, held, besides);
-  if (!slacks) return open_question::touched;
+  if (!slacks) return open_question::degenerate_rows;
   slack(besides) = *slacks;
   return {};
 }

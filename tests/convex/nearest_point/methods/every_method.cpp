@@ -3,6 +3,7 @@
 #include <string>
 #include <tuple>
 
+#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/methods.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"

@@ -5,15 +5,15 @@
 
 namespace convex::inline multiplier_sets {
 
-/// By row, the largest forces, ||·||_(A⁻¹), of what A and U couple to it: however hard others are pressed, a
-/// light contact that they do not move is not weighed against them.
-struct CoupledForces {
+/// By row, the largest |lambda_b| ||u_b||_(A⁻¹) of what A and U couple to it: however large those of others
+/// are, a row that they do not move is not weighed against them.
+struct CoupledPushes {
   Vector pushes;  ///< |lambda_b| ||u_b||_(A⁻¹) of rows: m
   Vector others;  ///< z and A q: m
 };
 
 /// `rows`: those with multipliers; length: ||u_a||_(A⁻¹) of these.
-CoupledForces coupled_forces(const NearestPointProblem&, const Solution&, const Vector& lambda,
+CoupledPushes coupled_pushes(const NearestPointProblem&, const Solution&, const Vector& lambda,
                              const std::vector<Index>& rows, const Vector& length);
 
 }  // namespace convex::inline multiplier_sets

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/multipliers/coupled_forces.hpp"
+#include "convex/nearest_point/multipliers/coupled_pushes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace convex::inline multiplier_sets {
 
-CoupledForces coupled_forces(const NearestPointProblem& problem, const Solution& solution,
+CoupledPushes coupled_pushes(const NearestPointProblem& problem, const Solution& solution,
                              const Vector& lambda, const std::vector<Index>& rows, const Vector& length) {
   const Islands islands = find_islands(problem);
   const double of_whole = std::max(solution.acceleration_norm, solution.force_norm);
@@ -17,18 +17,18 @@ CoupledForces coupled_forces(const NearestPointProblem& problem, const Solution&
     const Vector unit = problem.A.diagonal().cwiseSqrt();
     Vector z = Vector::Zero(others.size()), q = z;
     for (Index i = 0; i < problem.dimension(); ++i) {
-      const Index island = islands.of_coordinate[static_cast<std::size_t>(i)];
+      const Index island = islands.of_coordinate[at(i)];
       z[island] = std::hypot(z[island], problem.z[i] / unit[i]);  // squares may leave the range of doubles
       q[island] = std::hypot(q[island], solution.q[i] * unit[i]);
     }
     others = z.cwiseMax(q);
   }
   for (const Index a : rows)
-    if (const Index island = islands.of_row[static_cast<std::size_t>(a)]; island >= 0)
+    if (const Index island = islands.of_row[at(a)]; island >= 0)
       pushes[island] = std::max(pushes[island], std::abs(lambda[a]) * length[a]);
-  CoupledForces found{Vector::Zero(problem.rows()), Vector::Constant(problem.rows(), of_whole)};
+  CoupledPushes found{Vector::Zero(problem.rows()), Vector::Constant(problem.rows(), of_whole)};
   for (const Index a : rows)
-    if (const Index island = islands.of_row[static_cast<std::size_t>(a)]; island >= 0) {
+    if (const Index island = islands.of_row[at(a)]; island >= 0) {
       found.pushes[a] = pushes[island];
       found.others[a] = others[island];
     }
