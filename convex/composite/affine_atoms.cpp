@@ -110,7 +110,7 @@ class PointAtom final : public Atom {
   Call call() const override { return call_of("indicator", nested(call_of("point", point_))); }
   double value(const Vector& x) const override { return evaluate(x).value; }
   Value evaluate(const Vector& x) const override {
-    return indicated((x - point_).norm(), std::max(x.norm(), point_.norm()));
+    return indicated((x - point_).stableNorm(), std::max(x.stableNorm(), point_.stableNorm()));
   }
   Function conjugate() const override { return Function(linear_atom(point_)); }
   std::optional<Vector> subgradient(const Vector& x) const override {
@@ -143,7 +143,7 @@ class OrthantAtom final : public Atom {
   }
   double value(const Vector& x) const override { return evaluate(x).value; }
   Value evaluate(const Vector& x) const override {
-    return indicated((-sign_ * x.array()).cwiseMax(0.0).matrix().norm(), x.norm());
+    return indicated((-sign_ * x.array()).cwiseMax(0.0).matrix().stableNorm(), x.stableNorm());
   }
   Function conjugate() const override { return Function(std::make_shared<const OrthantAtom>(-sign_)); }
   std::optional<Vector> subgradient(const Vector& x) const override {

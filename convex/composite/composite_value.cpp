@@ -20,12 +20,12 @@ double term_value(const GraphTerm& term, const Vector& x) {
   const Vector at = term.M * x + term.b;
   const double value = term.f->value(at);
   if (value < infinity) return term.scale * value;
-  const double size = (term.M.cwiseAbs() * x.cwiseAbs() + term.b.cwiseAbs()).norm();
+  const double size = (term.M.cwiseAbs() * x.cwiseAbs() + term.b.cwiseAbs()).stableNorm();
   // A stiff prox is the projection on the domain, nearly.
   constexpr double stiff = 1e12;
   const Vector nearest = term.f->prox_diagonal(at, Vector::Constant(at.size(), stiff / (size * size)));
-  return (at - nearest).norm() <= membership_tolerance * size ? term.scale * term.f->value(nearest)
-                                                              : infinity;
+  return (at - nearest).stableNorm() <= membership_tolerance * size ? term.scale * term.f->value(nearest)
+                                                                    : infinity;
 }
 
 /// What the bounds of the terms' domains say of the size of w.

@@ -150,11 +150,11 @@ std::optional<NearestInDomain> nearest_in_domain(const LinearQuadratic& f, const
   const Metric plain = Metric::identity(f.n);
   const ProgramPoint point = minimise(domain, plain, x);
   if (point.lambda.size() != f.rows() || point.status == Status::infeasible) return std::nullopt;
-  double scale = x.norm();
+  double scale = x.stableNorm();
   for (Index a = 0; a < f.rows(); ++a)
     if (point.lambda[a] != 0) scale = std::max(scale, std::abs(f.h[a]) / f.G.row(a).norm());
   const Vector y = point.xi.head(f.n);
-  const Value membership = indicated((y - x).norm(), scale);
+  const Value membership = indicated((y - x).stableNorm(), scale);
   if (membership.value > 0) return std::nullopt;
   return NearestInDomain{y, membership};
 }

@@ -72,7 +72,7 @@ class Precompose : public Operation {
   double domain_support(const Vector& v) const override {
     const auto of = [&](const Vector& p) { return f_.node().domain_support(p) - p.dot(b_); };
     const Vector p = linear_algebra::least_squares(A_.transpose(), v);
-    const bool in_range = (A_.transpose() * p - v).norm() <= membership_tolerance * v.norm();
+    const bool in_range = (A_.transpose() * p - v).stableNorm() <= membership_tolerance * v.stableNorm();
     double least = in_range ? of(p) : std::numeric_limits<double>::infinity();
     // An entry of Ax + b that is always b_i must be within the domain's own bounds.
     for (Index i = 0; i < A_.rows(); ++i)

@@ -46,7 +46,7 @@ double rise_towards(const Function& f, const Vector& y, const Vector& inside, co
 
 double length_of(const Vector& x) {
   const double length = x.norm();
-  return std::isfinite(length) ? length : x.stableNorm();
+  return has_squares(length) ? length : x.stableNorm();
 }
 
 Value value_near(const Function& f, const Vector& y, double size) {

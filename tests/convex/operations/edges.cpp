@@ -58,6 +58,23 @@ TEST_CASE("a supremum that is not attained, or lies at the edge of the domain, h
   }
 }
 
+TEST_CASE("the bound of a conjugate's value is true where the split that attains it is at 0 or at no point") {
+  // sup of -e^x, of -1/(4|x|) and of -(2/3) / sqrt(3|x|) over x <= 0: 0, which no x attains. A split with
+  // parts of 1e-162, whose squares are 0, is outside the half-line's cone all the same.
+  for (const char* text :
+       {"sum(indicator(halfspace([1], 0)), exponential())",
+        "sum(indicator(halfspace([1], 0)), tilt(norm1(), [1]), exponential())",
+        "sum(dilate(indicator(orthant()), -1), exponential())",
+        "sum(dilate(indicator(orthant()), -1), conjugate(negative_power(0.5)))",
+        "sum(dilate(indicator(orthant()), -1), conjugate(negative_power(0.3333333333333333)))"}) {
+    CAPTURE(text);
+    const Value found = samples::function(text, 1).conjugate().evaluate(Vector::Zero(1));
+    CAPTURE(found.value);
+    CHECK(std::abs(found.value) <= found.error);
+    CHECK(found.error <= 1e-9);
+  }
+}
+
 TEST_CASE("a convolution whose slope is at a steep end of its conjugate has its value at every scale") {
   struct Steep {
     const char* f;
