@@ -25,6 +25,7 @@ class ConjugateAtom final : public Atom {
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return z - f_->prox_diagonal(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
   }
+  Index decomposed_size(Index n) const override { return f_->decomposed_size(n); }
   bool prox_by_conjugate() const override { return true; }
   Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
     Matrix J = f_->prox_jacobian(d.cwiseProduct(z), d.cwiseInverse());

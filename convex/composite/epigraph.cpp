@@ -18,6 +18,7 @@ class EpigraphAtom final : public Atom {
   EpigraphAtom(std::shared_ptr<const Atom> f, Index n, double unit)
       : f_(std::move(f)), n_(n), unit_(std::abs(unit)), side_(unit > 0 ? 1 : -1) {}
   Index dimension() const override { return n_ + 1; }
+  Index decomposed_size(Index) const override { return f_->decomposed_size(n_); }
   Facts facts() const override {
     const Facts of_f = f_->facts();
     return {.indicator = true, .cone = of_f.support || of_f.cone};

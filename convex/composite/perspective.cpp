@@ -21,6 +21,7 @@ class PerspectiveAtom final : public Atom {
   PerspectiveAtom(std::shared_ptr<const Atom> f, Index n, double side)
       : f_(std::move(f)), n_(n), side_(side) {}
   Index dimension() const override { return n_ + 1; }
+  Index decomposed_size(Index) const override { return f_->decomposed_size(n_); }
   Facts facts() const override { return {.cone = f_->facts().cone, .support = true}; }
   Call call() const override {
     const auto nested = [](const char* name, const Call& inner) -> Call {

@@ -10,6 +10,9 @@ namespace {
 
 /// A prox may be wrong by this many roundings of its result and of its step t - u.
 constexpr double prox_roundings = 2;
+/// So many per row and column where it decomposes a matrix, as a whole: singular vectors come out orthogonal
+/// to some 4 roundings per row and column.
+constexpr double decomposition_roundings = 6;
 /// A residual above this part of the sizes is not rounding, and the Newton step from there is not exact.
 constexpr double settled = 1e-13;
 /// What the estimated errors of y and w are multiplied by to be safe, at rounding level and far from it; and
@@ -29,6 +32,14 @@ Rounding rounding_of(const SaddleProblem& problem, const SaddlePoint& point) {
   const SparseMatrix magnitude = problem.M.cwiseAbs();
   Rounding rounding;
   rounding.u = prox_roundings * unit_roundoff * (point.u.cwiseAbs() + (point.t - point.u).cwiseAbs());
+  for (const SaddleTerm& term : problem.terms)
+    if (const Index size = term.f->decomposed_size(term.rows); size > 0) {
+      const Vector u = point.u.segment(term.first, term.rows), t = point.t.segment(term.first, term.rows);
+      const double whole =
+          decomposition_roundings * static_cast<double>(size) * unit_roundoff * (u.norm() + (t - u).norm());
+      const double spread = whole / std::sqrt(static_cast<double>(term.rows));
+      rounding.u.segment(term.first, term.rows) = rounding.u.segment(term.first, term.rows).cwiseMax(spread);
+    }
   rounding.r = rounding.u + unit_roundoff * point.r.cwiseAbs();
   // Heights that are far above their differences, as beside a large constant, are rounded as they are.
   rounding.r += unit_roundoff * (magnitude.rightCols(problem.k) * point.xi.tail(problem.k).cwiseAbs());

@@ -73,6 +73,7 @@ Set psd_cone() {
                         return prox_formulas::psd_projection(z.reshaped(n, n)).jacobian();
                       });
   K.require_size = [](Index n, const std::string& name) { require_square(name, n); };
+  K.of_eigenvalues = true;
   return set_of(std::move(K));
 }
 

@@ -1,5 +1,7 @@
 #include "convex/functions/convex_set.hpp"
 
+#include <cmath>
+
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 
@@ -39,6 +41,7 @@ class SetIndicator : public Atom {
   }
   double recession(const Vector& d) const override { return d.isZero(0) || S_->recedes(d) ? 0 : infinity; }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->project(z, d); }
+  Index decomposed_size(Index n) const override { return S_->decomposed_size(n); }
   bool prox_by_conjugate() const override {
     return S_->split_route() == SplitRoute::projection_from_support_prox;
   }
@@ -86,6 +89,7 @@ class SetSupport : public Atom {
     return v.isZero(0) || S_->recedes(v) ? 0 : infinity;
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->support_prox(z, d); }
+  Index decomposed_size(Index n) const override { return S_->decomposed_size(n); }
   bool prox_by_conjugate() const override {
     return S_->split_route() == SplitRoute::support_prox_from_projection;
   }
@@ -132,6 +136,9 @@ class ConeSet : public ConvexSet {
     return Vector::Zero(v.size());
   }
   Vector support_prox(const Vector& z, const Vector& d) const override { return K_.project_polar(z, d); }
+  Index decomposed_size(Index n) const override {
+    return K_.of_eigenvalues ? 2 * static_cast<Index>(std::lround(std::sqrt(static_cast<double>(n)))) : 0;
+  }
   SplitRoute split_route() const override { return K_.route; }
   void make_conjugate(Vector& s, Vector& u) const override {
     if (K_.make_conjugate) K_.make_conjugate(s, u);

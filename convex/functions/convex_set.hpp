@@ -54,6 +54,8 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   virtual std::optional<Vector> maximiser(const Vector& v) const = 0;
   /// The prox of the support function, by a formula of its own and not from `project`; see `SplitRoute`.
   virtual Vector support_prox(const Vector& z, const Vector& d) const = 0;
+  /// As Atom::decomposed_size, of the projection and of the prox of the support function.
+  virtual Index decomposed_size(Index /*n*/) const { return 0; }
   virtual SplitRoute split_route() const { return SplitRoute::two_formulas; }
   /// Moves s or u, of a set whose split has one route, so that s is in S and u normal to S there: how far
   /// they have to move is what the formula did not keep.
@@ -87,6 +89,7 @@ struct Cone {
   std::function<LinearQuadratic(Index n)> form = {};
   bool any_diagonal = false;
   SplitRoute route = SplitRoute::two_formulas;
+  bool of_eigenvalues = false;  ///< of a square matrix
   /// As ConvexSet::make_conjugate.
   std::function<void(Vector& s, Vector& u)> make_conjugate = {};
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -31,6 +32,11 @@ class SpectralBall : public ConvexSet {
   Call support_call() const override { return named("nuclear_norm", "weight"); }
   Facts facts() const override { return {}; }
   bool bounded() const override { return true; }
+  /// A row or a column has no directions that rounding would turn.
+  Index decomposed_size(Index n) const override {
+    const Index columns = n / rows_;
+    return std::min(rows_, columns) > 1 ? rows_ + columns : 0;
+  }
   double scale() const override { return radius_; }
   Vector project(const Vector& z, const Vector&) const override {
     return stacked(prox_formulas::proj_spectral_ball(unstacked(z, rows_), radius_));
@@ -67,6 +73,9 @@ class LogDeterminant : public Atom {
   Index dimension() const override { return 0; }
   void require_size(Index n) const override { require_square("neg_log_det", n); }
   Facts facts() const override { return {.smooth = true}; }
+  Index decomposed_size(Index n) const override {
+    return 2 * static_cast<Index>(std::lround(std::sqrt(static_cast<double>(n))));
+  }
 };
 
 struct Parts {

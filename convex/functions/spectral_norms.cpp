@@ -1,5 +1,6 @@
 #include "convex/functions/spectral_norms.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -41,6 +42,10 @@ class SchattenBall : public ConvexSet {
   Call support_call() const override { return named("schatten", dual_exponent(q_), "weight"); }
   Facts facts() const override { return {}; }
   bool bounded() const override { return true; }
+  Index decomposed_size(Index n) const override {
+    const Index rows = rows_ > 0 ? rows_ : square_order(n), columns = rows > 0 ? n / rows : 0;
+    return std::min(rows, columns) > 1 ? rows + columns : 0;
+  }
   double scale() const override { return radius_; }
   Vector project(const Vector& z, const Vector&) const override {
     const Matrix Z = matrix(z);
@@ -116,6 +121,7 @@ class Spectraplex : public ConvexSet {
   Call support_call() const override { return {"max_eigenvalue", {argument("weight", total_)}}; }
   Facts facts() const override { return {}; }
   bool bounded() const override { return false; }
+  Index decomposed_size(Index n) const override { return 2 * square_order(n); }
   bool recedes(const Vector& d) const override { return (matrix(d) + matrix(d).transpose()).isZero(0); }
   double scale() const override { return total_; }
   Vector project(const Vector& z, const Vector&) const override {
@@ -134,7 +140,7 @@ class Spectraplex : public ConvexSet {
   }
   double support(const Vector& v) const override {
     const Matrix V = matrix(v);
-    if (0.5 * (V - V.transpose()).norm() > membership_tolerance * V.norm()) return infinity;
+    if (0.5 * (V - V.transpose()).stableNorm() > membership_tolerance * V.stableNorm()) return infinity;
     return total_ * linear_algebra::eigenvalues(0.5 * (V + V.transpose())).maxCoeff();
   }
   /// Eigenvalues are rounded as the largest of them is.

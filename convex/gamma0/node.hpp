@@ -85,6 +85,9 @@ class Atom : public FunctionNode {
   virtual double subgradient_miss(const Vector& /*x*/, const Vector& /*v*/, const Vector& /*d*/) const {
     return 0;
   }
+  /// Rows and columns together of the matrix whose singular values or eigenvalues `prox_diagonal` at n
+  /// entries takes, 0 where it takes none: its rounding grows with them, and spreads over all entries.
+  virtual Index decomposed_size(Index /*n*/) const { return 0; }
   /// Is `prox_diagonal` found from the prox of the conjugate?
   virtual bool prox_by_conjugate() const { return false; }
   /// The prox in a metric that is not diagonal by a method of the atom's own; none when it has none.
