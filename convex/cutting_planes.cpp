@@ -206,7 +206,10 @@ class SearchByCuts {
       if (seen_[i].line(here.d) >= below - std::abs(above) - seen_[i].error)
         error = std::max(error, seen_[i].error);
     const double missed = W_.dual_norm(step.v - pull_ + W_.multiply(here.d));
-    const double open = 2 * error + widened_;
+    // A set holds a point that its rounding leaves outside, and lines know of no price for that.
+    const Vector x = x_0_ + here.d;
+    const double outside = f_.facts().indicator ? unit_roundoff * step.v.cwiseAbs().dot(x.cwiseAbs()) : 0;
+    const double open = 2 * error + widened_ + outside;
     if (!(std::sqrt(std::max(above, 0.0) + open) + missed <= enough)) return false;
     // The lines' own conjugate says what f* is at most, however the least above them was found: a rounding of
     // x may be much on a steep line.
@@ -215,7 +218,7 @@ class SearchByCuts {
     const double left =
         std::max(0.0, here.height + most.value - along.value) + most.error + along.error + open;
     Prox made;
-    made.x = x_0_ + here.d;
+    made.x = x;
     made.v = step.v;
     made.error_bound = std::sqrt(left) + missed;
     if (!(made.error_bound <= enough) || (best_ && best_->error_bound <= made.error_bound)) return false;

@@ -5,6 +5,7 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
+#include "convex/functions/closed_form.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 
 namespace convex {
@@ -44,9 +45,10 @@ std::optional<Prox> moreau_partner(const Prox& of_f, const Vector& z, const Metr
   if (of_f.v.size() != z.size() || !of_f.v.allFinite()) return std::nullopt;
   Prox made = of_f;
   made.x = refined_solve(W, of_f.v);
-  made.v = W.multiply(of_f.x);
+  made.v = metric_difference(W, of_f.x, Vector::Zero(z.size()));
   if (of_f.values) made.values = turned_round(*of_f.values);
-  made.error_bound = of_f.error_bound + W.dual_norm(metric_difference(W, of_f.x, z) + of_f.v) +
+  made.error_bound = of_f.error_bound + W.dual_norm(stationarity(z, W, of_f.x, of_f.v)) +
+                     miss_of_solve(W, made.x, of_f.v) +
                      roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(of_f.x));
   if (!of_f.method.starts_with("Moreau")) made.method = "Moreau's identity, " + of_f.method;
   return made;
@@ -59,7 +61,7 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
   made.x = dual->v;
   made.v = dual->x;
   if (dual->values) made.values = turned_round(*dual->values);
-  made.error_bound = dual->error_bound + W.dual_norm(metric_difference(W, made.x, z) + made.v) +
+  made.error_bound = dual->error_bound + W.dual_norm(stationarity(z, W, made.x, made.v)) +
                      roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(made.x));
   made.by_conjugate = true;
   if (!dual->method.starts_with("Moreau")) made.method = "Moreau's identity, " + dual->method;

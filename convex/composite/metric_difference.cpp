@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace convex::inline composite {
 namespace {
+
+/// A correction of this part of what it corrects leaves a rounding of it.
+constexpr double root_of_unit_roundoff = 0x1p-27;
 
 constexpr int power_iterations = 12;  // enough for the ends to a factor of 2, which is all that is needed
 
@@ -58,11 +62,31 @@ Vector metric_difference(const Metric& W, const Vector& x, const Vector& z) {
 }
 
 Vector refined_solve(const Metric& W, const Vector& c) {
-  const Vector first = W.solve(c);
-  if (W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal) return first;
-  DoubleDoubleVector missing(-c);
-  add_metric_difference(W, first, Vector::Zero(c.size()), missing);
-  return first - W.solve(missing.value());
+  Vector x = W.solve(c);
+  if (W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal) return x;
+  constexpr int most_corrections = 12;
+  constexpr double slow = 0.5;
+  double last = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < most_corrections; ++pass) {
+    const Vector correction = W.solve(excess_of_image(W, x, c));
+    const double size = correction.norm();
+    if (!(size <= slow * last)) break;
+    x -= correction;
+    // The next one would be this part of the last, as this is of x.
+    if (size <= root_of_unit_roundoff * x.norm()) break;
+    last = size;
+  }
+  return x;
+}
+
+Vector excess_of_image(const Metric& W, const Vector& x, const Vector& c) {
+  DoubleDoubleVector sum(-c);
+  add_metric_difference(W, x, Vector::Zero(c.size()), sum);
+  return sum.value();
+}
+
+double miss_of_solve(const Metric& W, const Vector& x, const Vector& c) {
+  return W.dual_norm(excess_of_image(W, x, c));
 }
 
 Matrix gram(const Metric& W) {

@@ -12,9 +12,16 @@ void add_metric_difference(const Metric& W, const Vector& x, const Vector& z, Do
 /// W(x - z), rounded once.
 Vector metric_difference(const Metric& W, const Vector& x, const Vector& z);
 
-/// W⁻¹c, refined once by a residual in twice the working precision: right to rounding where the condition
-/// number leaves a few digits (Wilkinson 1963).
+/// W⁻¹c, refined by residuals in twice the working precision until they leave rounding (Wilkinson 1963): once
+/// in most metrics, more often where the condition number leaves a few digits.
 Vector refined_solve(const Metric& W, const Vector& c);
+
+/// Wx - c, rounded once.
+Vector excess_of_image(const Metric& W, const Vector& x, const Vector& c);
+
+/// ||x - W⁻¹c||_W = ||Wx - c||_(W⁻¹): what the rounding of x costs where W⁻¹c is meant. In a metric that is
+/// nearly singular no double may be nearer.
+double miss_of_solve(const Metric& W, const Vector& x, const Vector& c);
 
 /// W as a full matrix.
 Matrix gram(const Metric& W);

@@ -47,15 +47,6 @@ Decomposition looked_at(const SplitFunctions& of, const Vector& z, const Metric&
 /// Squares and products of numbers of this size, or of its inverse, leave the range of doubles.
 constexpr double largest_size = 0x1p500;
 
-/// Has a call, or a part of it, numbers that were rounded as it was made?
-bool has_rounded_numbers(const Call& call) {
-  if (call.unrounded) return true;
-  return std::any_of(call.arguments.begin(), call.arguments.end(), [](const NamedArgument& argument) {
-    const auto* nested = std::get_if<std::shared_ptr<const Call>>(&argument.value);
-    return nested && has_rounded_numbers(**nested);
-  });
-}
-
 /// What rounded numbers may do in W, as a part: with k >= trace(W) / λ_min(W), a matrix whose entries are
 /// right to a rounding u is right to u k, as a part of W, and its inverse to u k².
 double rounding_of_numbers(const Metric& W) {

@@ -45,6 +45,14 @@ void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Pro
   found.error_bound += length;
 }
 
+/// Norms by a rounded factor of W are right to such a part of themselves, which bounds are short of where W
+/// is nearly singular.
+double rounding_of_norms(const Metric& W) {
+  constexpr double roundings = 4;
+  const double condition = W.factor_condition();
+  return roundings * static_cast<double>(W.dimension()) * unit_roundoff * condition * condition;
+}
+
 }  // namespace
 
 Index Function::dimension() const { return node_->dimension(); }
@@ -73,6 +81,7 @@ Prox Function::prox(const Vector& z, const Metric& W, const Look& look) const {
   const WorkLimit question;
   Prox found = node_->prox(z, W, look);
   if (found.x.size() == z.size()) settle_at_zero(*node_, z, W, found);
+  found.error_bound *= 1 + rounding_of_norms(W);
   if (found.status == Status::solved && !std::isfinite(found.error_bound)) found.status = Status::inaccurate;
   return found;
 }

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "convex/composite/metric_difference.hpp"
+#include "convex/double_double.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/sets.hpp"
@@ -61,17 +64,32 @@ class Slab : public ConvexSet {
   Vector support_prox(const Vector& z, const Vector& d) const override {
     return multiplier(d.cwiseProduct(z), d.cwiseProduct(a_)) * a_;
   }
+  /// With the numbers as given: divided by |a| they are those of another plane by a rounding, which may be
+  /// far in a metric that is nearly singular.
   std::optional<Prox> project_general(const Vector& z, const Metric& W) const override {
-    const Vector normal = W.solve(a_);  // a is a covector; W makes it a direction
-    double weight = multiplier(z, normal);
-    if (weight == 0) return closed_form(z, W, z, Vector::Zero(z.size()));
+    const double length = given_a_.stableNorm(), unit = length > 0 ? std::exp2(std::ilogb(length)) : 1;
+    const Vector a = given_a_ / unit;  // exactly
+    const double b = given_b_ / unit;
+    const Vector normal = refined_solve(W, a);  // a is a covector; W makes it a direction
+    const double square = a.dot(normal), excess = excess_at(z, a, b);
+    if (!(square > 0) || (!two_sided_ && excess <= 0) || excess == 0)
+      return closed_form(z, W, z, Vector::Zero(z.size()));
+    double weight = excess / square;
     Vector x = z - weight * normal;
     // Refined once, on 0 = W(x - z) + weight a and a·x = b.
-    x -= W.solve(stationarity(z, W, x, weight * a_));
-    const double rest = (a_.dot(x) - b_) / a_.dot(normal);
+    x -= W.solve(stationarity(z, W, x, weight * a));
+    const double rest = excess_at(x, a, b) / square;
     weight += rest;
     x -= rest * normal;
-    return closed_form(z, W, x, weight * a_);
+    const Vector v = weight * a;
+    Prox found = closed_form(z, W, x, v);
+    // How far x is from the plane and v from the line of a, where that is more than the rounding counted.
+    Vector off(v.size());
+    for (Index i = 0; i < v.size(); ++i) off[i] = std::fma(weight, a[i], -v[i]);
+    const double missed = std::abs(excess_at(x, a, b)) / std::sqrt(square) + W.dual_norm(off);
+    const double counted = roundings_of_a_formula * unit_roundoff * (W.norm(z) + W.norm(x));
+    found.error_bound += std::max(0.0, missed - counted);
+    return found;
   }
   std::optional<LinearQuadratic> indicator_form(Index) const override {
     return two_sided_ ? linear_quadratic::hyperplane(given_a_, given_b_)
@@ -79,6 +97,13 @@ class Slab : public ConvexSet {
   }
 
  private:
+  /// a·x - b in twice the precision, rounded once.
+  static double excess_at(const Vector& x, const Vector& a, double b) {
+    RunningSum sum;
+    for (Index i = 0; i < x.size(); ++i) sum.add(two_product(a[i], x[i]));
+    sum.add(-b);
+    return sum.value();
+  }
   double multiplier(const Vector& z, const Vector& normal) const {
     const double length = a_.dot(normal);
     if (!(length > 0)) return 0;

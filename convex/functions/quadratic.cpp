@@ -1,5 +1,6 @@
 #include "convex/functions/quadratic.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -132,7 +133,8 @@ class DualQuadratic : public Atom {
   double value(const Vector& v) const override { return evaluate(v).value; }
   Value evaluate(const Vector& v) const override {
     const Vector from = v - c_;
-    const Value on_range = indicated((of_Q_.null.transpose() * from).norm(), v.norm() + c_.norm());
+    const Value on_range =
+        indicated((of_Q_.null.transpose() * from).stableNorm(), v.stableNorm() + c_.stableNorm());
     // Whether it is +inf there, or large, may rest on the rounding of Q.
     if (std::isinf(on_range.value)) return {infinity, of_Q_.is_sure ? 0 : infinity};
     // For any y it is at least y·(v - c) - ½ y·Qy - constant, and ½ r·Q⁺r more, r = v - c - Qy.
@@ -186,15 +188,24 @@ class DualQuadratic : public Atom {
     const Vector covector = metric_difference(W, z, x);
     const Vector v = of_Q_.basis * (of_Q_.values.cwiseSqrt().cwiseInverse().asDiagonal() * t) +
                      of_Q_.null * (of_Q_.null.transpose() * covector);
-    Prox along_range = closed_form(z, W, x, v);
+    const Prox along_range = as_pair(z, W, x, v);
     if (of_Q_.null.cols() > 0) return along_range;
     // Where c and Lt cancel, the difference to z may not.
-    Prox from_z = closed_form(z, W, z - W.solve(v), v);
+    const Prox from_z = as_pair(z, W, z - W.solve(v), v);
     return from_z.error_bound < along_range.error_bound ? from_z : along_range;
   }
 
  private:
   static constexpr double roundings_of_pairs = 16;
+
+  /// x with the covector v, of which c + Qv is the point: how far x is from there counts where it is more
+  /// than the rounding counted, as where W is nearly singular.
+  Prox as_pair(const Vector& z, const Metric& W, const Vector& x, const Vector& v) const {
+    Prox found = closed_form(z, W, x, v);
+    const double counted = roundings_of_a_formula * unit_roundoff * (W.norm(z) + W.norm(x));
+    found.error_bound += std::max(0.0, 2 * W.norm(left_of(x, v, 1).value()) - counted);
+    return found;
+  }
 
   bool is_finite() const { return of_Q_.null.cols() == 0 || inverse_; }
 

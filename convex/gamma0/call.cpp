@@ -1,5 +1,6 @@
 #include "convex/gamma0/call.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -59,6 +60,14 @@ void append(std::string& text, const Call& call) {
 }
 
 }  // namespace
+
+bool has_rounded_numbers(const Call& call) {
+  if (call.unrounded) return true;
+  return std::any_of(call.arguments.begin(), call.arguments.end(), [](const NamedArgument& argument) {
+    const auto* nested = std::get_if<std::shared_ptr<const Call>>(&argument.value);
+    return nested && has_rounded_numbers(**nested);
+  });
+}
 
 std::string to_text(const Call& call) {
   std::string text;

@@ -56,6 +56,9 @@ NamedArgument argument(std::string key, Argument value);
 Call indicator_call(Call set);
 Call support_call(Call set);
 
+/// Has a call, or a part of it, numbers that were rounded as it was made?
+bool has_rounded_numbers(const Call& call);
+
 /// The call as text that reads back to the same call: numbers with the shortest digits that read back.
 std::string to_text(const Call& call);
 std::string to_text(double number);

@@ -157,10 +157,12 @@ class ProximalPoint {
                          softness_ * soft_.curvature.cwiseProduct(point_.xi.cwiseAbs());
     const double scale = z_norm_ + W_.norm(point_.xi.head(f_.n));
     point_.defect_ratio = 0;
+    largest_defect_ = 0;
     double motion_ratio = 0, transfer = 0;
     terms_norm_ = W_.dual_norm(terms.head(f_.n));
     for (Index j = f_.n; j < f_.variables(); ++j) {
       const double off = std::abs(defect[j]), stiffness = std::sqrt(soft_.curvature[j]);
+      largest_defect_ = std::max(largest_defect_, off);
       if (off > 0) point_.defect_ratio = std::max(point_.defect_ratio, off / terms[j]);
       if (!(stiffness > 0)) continue;
       // What a defect may do to x, and that relative to x, or to the costs when there is no x.
@@ -212,7 +214,9 @@ class ProximalPoint {
   /// Sharpens a settled point with its working set.
   ProgramPoint finished(const Solution& solution) {
     point_.v = subgradient_of_multipliers(f_, point_.xi, point_.lambda);
-    if ((soft_.any || !f_.polyhedral()) && !rough_) {
+    sharpened_ = !soft_.any && f_.polyhedral();
+    if (sharpened_) return judged();
+    if (!rough_) {
       const double scale = f_.n > 0 ? z_norm_ + W_.norm(point_.xi.head(f_.n)) + less * terms_norm_
                                     : problem_.A.norm(point_.xi) + less * round_scale_;
       const PolishedPoint better =
@@ -226,10 +230,23 @@ class ProximalPoint {
         point_.lambda = better.lambda;
         point_.v = better.v;
         point_.defect_ratio = 0;
-        point_.error_bound = better.missing + (solution.error_bound - solution.rounding);
+        const double open = solution.error_bound - solution.rounding;
+        sharpened_ = open <= still * scale;
+        point_.error_bound = better.missing + open + (sharpened_ ? 0 : open_in_covector());
+        return judged();
       }
     }
+    point_.error_bound += open_in_covector();
     return judged();
+  }
+
+  /// What multipliers that nothing has sharpened leave open of v: the rounding of its terms, and what they
+  /// miss of stationarity in the auxiliary variables, which tie its entries together.
+  double open_in_covector() const {
+    const Vector terms = defect_terms(f_, point_.xi, point_.lambda);
+    const double tied = f_.auxiliaries() > 0 ? terms.tail(f_.auxiliaries()).maxCoeff() : 0;
+    const double least = std::max(largest_defect_, unit_roundoff * tied);
+    return (unit_roundoff * terms.head(f_.n)).cwiseMax(least).dot(softness_of_entries(W_));
   }
 
   ProgramPoint judged() {
@@ -238,6 +255,10 @@ class ProximalPoint {
     // Without x only the value counts, which its own duality gap judges.
     const bool balanced = point_.defect_ratio <= stagnant_defect || idle_;
     point_.status = (exact || f_.n == 0) && balanced && !rough_ ? Status::solved : Status::inaccurate;
+    // What rounds that do not come to rest say of their distance to the end is no bound where W may be nearly
+    // singular.
+    const bool is_full = W_.kind() == MetricKind::dense || W_.kind() == MetricKind::sparse;
+    if (point_.status != Status::solved && !sharpened_ && is_full) point_.error_bound = infinity;
     return point_;
   }
 
@@ -252,8 +273,10 @@ class ProximalPoint {
   double terms_norm_ =
       0;  // the terms of stationarity in the units of x: its rounding is relative to them too
   double round_scale_ = 0;
-  Vector rounded_off_;  ///< what the linear term of a round left out of its double
+  double largest_defect_ = 0;  ///< of stationarity in the auxiliary variables
+  Vector rounded_off_;         ///< what the linear term of a round left out of its double
   bool rough_ = false, idle_ = false;
+  bool sharpened_ = false;  ///< ξ is that of its rows to rounding
   ProgramPoint point_;
 };
 

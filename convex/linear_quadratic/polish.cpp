@@ -50,6 +50,22 @@ Vector subgradient(const LinearQuadratic& f, const Set& set, const DoubleDoubleV
   return (v.array().abs() <= v_noise * terms.array()).select(0, v);
 }
 
+/// Hξ + c + W(x - z) - Gᵀlambda, rounded once.
+Vector left_of_balance(const LinearQuadratic& f, const Metric& W, const Vector& z, const Set& set,
+                       const DoubleDoubleVector& xi, const DoubleDoubleVector& lambda) {
+  DoubleDoubleVector balance = gradient(f, W, z, xi);
+  for (Index k = 0; k < set.size(); ++k)
+    set.problem().U.add_multiple(set.rows()[static_cast<std::size_t>(k)], {-lambda.hi[k], -lambda.lo[k]},
+                                 balance);
+  return balance.value();
+}
+
+double largest_coefficient(const SparseRows& G, Index a) {
+  double largest = 0;
+  for (SparseRows::InnerIterator it(G, a); it; ++it) largest = std::max(largest, std::abs(it.value()));
+  return largest;
+}
+
 /// How far x may move, in ||·||_W, where a row that is not held turns out to be violated by the rounding of
 /// those held: to where it holds too, along them, with a multiplier that is no more than all of theirs.
 double move_to_rows_outside(const LinearQuadratic& f, const Metric& W, Set& set, const DoubleDoubleVector& xi,
@@ -92,12 +108,10 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   double last = std::numeric_limits<double>::infinity(), last_x = 0, gain = 1;
   Vector dxi, dmultipliers;
   for (int step = 0; step < most_corrections; ++step) {
-    DoubleDoubleVector balance = gradient(f, W, z, xi);
-    for (Index k = 0; k < held; ++k)
-      round.U.add_multiple(set.rows()[static_cast<std::size_t>(k)], {-lambda.hi[k], -lambda.lo[k]}, balance);
+    const Vector balance = left_of_balance(f, W, z, set, xi, lambda);
     for (Index k = 0; k < held; ++k)
       r2[k] = -slack(round, set.rows()[static_cast<std::size_t>(k)], xi).value();
-    set.correct(round.A.whiten(-balance.value()), r2, dw, dlambda);
+    set.correct(round.A.whiten(-balance), r2, dw, dlambda);
     const Vector step_xi = round.A.unwhiten(dw);
     const double size = dw.norm(), x_size = f.n > 0 ? W.norm(step_xi.head(f.n)) : size;
     gain = size / last;
@@ -117,6 +131,10 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   }
   found.converged = found.converged || last == 0 || found.missing <= will_do * scale;
   if (!found.converged) return found;
+  // Where softness is far above the curvature of W, corrections creep, and end as if nothing were left.
+  const Vector left = left_of_balance(f, W, z, set, xi, lambda);
+  double open = f.auxiliaries() > 0 ? left.tail(f.auxiliaries()).cwiseAbs().maxCoeff() : 0;
+  if (f.n > 0) found.missing += W.dual_norm(left.head(f.n));
   drop_noise(xi, dxi);
   drop_noise(lambda, dmultipliers);
   found.xi = xi.hi;
@@ -132,9 +150,12 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
     const Index a = set.rows()[static_cast<std::size_t>(k)];
     const bool falls = lambda.hi[k] < 0 && !free[static_cast<std::size_t>(a)];
     if (falls && lambda.hi[k] < -sign_noise * largest) found.converged = false;
-    if (falls) found.missing += -lambda.hi[k] * set.factor().length(k);
+    if (falls) open += -lambda.hi[k] * largest_coefficient(f.G, a);
     found.lambda[a] = falls ? 0 : lambda.hi[k];
   }
+  // Auxiliary variables may hand that on to any entry of the covector.
+  if (f.n > 0 && open > enough * defect_terms(f, found.xi, found.lambda).maxCoeff())
+    found.missing += open * softness_of_entries(W).sum();
   return found;
 }
 

@@ -83,4 +83,10 @@ Vector defect_terms(const LinearQuadratic& f, const Vector& xi, const Vector& la
   return f.c.cwiseAbs() + f.H.cwiseAbs() * xi.cwiseAbs() + f.G.cwiseAbs().transpose() * lambda.cwiseAbs();
 }
 
+Vector softness_of_entries(const Metric& W) {
+  Matrix columns = Matrix::Identity(W.dimension(), W.dimension());
+  W.whiten_in_place(columns);
+  return columns.colwise().norm();
+}
+
 }  // namespace convex

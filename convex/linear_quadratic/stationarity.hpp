@@ -30,4 +30,8 @@ double complementarity(const LinearQuadratic& f, const Vector& xi, const Vector&
 /// What the terms of entry j of the defect without W add up to in size; its rounding is relative to this.
 Vector defect_terms(const LinearQuadratic& f, const Vector& xi, const Vector& lambda);
 
+/// ||e_i||_(W⁻¹) for every entry i: how far x may move in ||·||_W per unit of that entry of its covector. In
+/// a metric that is nearly singular a rounding of the covector is far.
+Vector softness_of_entries(const Metric& W);
+
 }  // namespace convex

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "convex/composite/graph_algebra.hpp"
@@ -40,21 +41,21 @@ class InProduct : public Operation {
   Value evaluate(const Vector& x) const override {
     if (f_ && !is_diagonal_kind(M_) && facts().piecewise_quadratic)
       if (const auto exact = exact_value_at(self(), x)) return *exact;
-    return value_near(h_, image(x), length_of(gram(M_).cwiseAbs() * x.cwiseAbs()));
+    return value_near(h_, image(x).value, length_of(gram(M_).cwiseAbs() * x.cwiseAbs()));
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
-    const std::optional<Vector> v = h_.subgradient(image(x));
+    const std::optional<Vector> v = h_.subgradient(image(x).value);
     if (!v) return std::nullopt;
-    return image(*v);
+    return image(*v).value;
   }
   double error_of_slope(double x, double w) const override {
     const double m = M_.diagonal()[0], y = m * x, left = std::abs(std::fma(m, x, -y)), w_of_y = w / (m * m);
     return m * (h_.node().error_of_slope(y, w_of_y) + error_of_moved_slope(h_.node(), y, left, w_of_y));
   }
   Function conjugate() const override;
-  double recession(const Vector& d) const override { return h_.node().recession(image(d)); }
+  double recession(const Vector& d) const override { return h_.node().recession(image(d).value); }
   double domain_support(const Vector& v) const override {
-    return h_.node().domain_support(refined_solve(M_, v));
+    return h_.node().domain_support(preimage(v).value);
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = h_.node().linear_quadratic(n);
@@ -67,6 +68,13 @@ class InProduct : public Operation {
     return convex::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
   }
 
+  /// In a full metric not by a program over Mx, which takes a u that misses Mx by rounding for it: it may be
+  /// far from that in a metric that is nearly singular.
+  Prox prox(const Vector& z, const Metric& W, const Look& look) const override {
+    const auto found = is_diagonal_kind(W) ? std::nullopt : reduced_prox(z, W, look);
+    return found ? *found : Operation::prox(z, W, look);
+  }
+
  protected:
   /// With u = Mx the metric is M⁻¹WM⁻¹, the inverse of C = M W⁻¹M. As matrices both are rounded; the
   /// residual sees W and M as given, and corrects the point Mz by it.
@@ -74,36 +82,65 @@ class InProduct : public Operation {
     const auto factor = ratio(M_, W);
     const Metric C = factor ? times(*factor, M_) : congruence(M_, W);
     const auto into_point = [&](const Vector& covector) -> Vector {  // M W⁻¹ covector
-      return factor ? Vector(*factor * covector) : image(refined_solve(W, covector));
+      return factor ? Vector(*factor * covector) : image(refined_solve(W, covector)).value;
     };
-    if (const auto f = primal_of(h_)) {  // Moreau's identity leads back to C, and to points C⁻¹u
+    // Moreau's identity leads back to C, and to points C⁻¹u.
+    const auto by_conjugate_of_h = [&](const Function& f) {
       const auto from = [&](const Vector& point) {
-        Prox part = f->prox(point, C, look);
+        Prox part = f.prox(point, C, look);
         if (part.x.size() == 0) return part;
         part.by_conjugate = true;
         const auto values = part.values;  // those of f, of which h is the conjugate
-        Prox whole = moved(part, refined_solve(M_, part.v), image(part.x), part.error_bound, z, W);
+        Prox whole = mapped(part, part.v, part.x, z, W);
         if (values) whole.values = turned_round(*values);
         return whole;
       };
       const Vector covector =
-          factor ? Vector(z / *factor) : refined_solve(M_, metric_difference(W, z, zero()));
+          factor ? Vector(z / *factor) : preimage(metric_difference(W, z, Vector::Zero(z.size()))).value;
       return reduced(covector, z, W, from, [&](const Vector& r) { return C.solve(into_point(r)); });
-    }
+    };
+    if (const auto f = primal_of(h_)) return by_conjugate_of_h(*f);
     const Metric S = inverse(C);
     if (facts().piecewise_quadratic && !factor && !is_diagonal_kind(S)) return std::nullopt;
     const auto from = [&](const Vector& point) {
       Prox part = h_.prox(point, S, look);
       if (part.x.size() == 0) return part;
-      return with_values(moved(part, refined_solve(M_, part.x), image(part.v), part.error_bound, z, W),
-                         part.values);
+      return with_values(mapped(part, part.x, part.v, z, W), part.values);
     };
-    return reduced(image(z), z, W, from, into_point);
+    Prox found = reduced(image(z).value, z, W, from, into_point);
+    // S is rounded, and C is not where M and W are one.
+    if (f_ && factor && !is_diagonal_kind(W) && !is_settled(found, z, W))
+      if (Prox other = by_conjugate_of_h(*f_); other.x.size() > 0 && other.error_bound < found.error_bound)
+        return other;
+    return found;
+  }
+
+  /// Mx and M⁻¹u, each rounded once or nearly so, and what it is off by.
+  struct Rounded {
+    Vector value, off;
+  };
+  virtual Rounded image(const Vector& x) const { return product_of(M_, x); }
+  virtual Rounded preimage(const Vector& u) const { return quotient_of(M_, u); }
+  static Rounded product_of(const Metric& M, const Vector& x) {
+    const Vector value = metric_difference(M, x, Vector::Zero(x.size()));
+    return {value, excess_of_image(M, x, value)};
+  }
+  static Rounded quotient_of(const Metric& M, const Vector& u) {
+    const Vector value = refined_solve(M, u);
+    return {value, M.solve(excess_of_image(M, value, u))};
   }
 
  private:
-  Vector zero() const { return Vector::Zero(M_.dimension()); }
-  Vector image(const Vector& x) const { return metric_difference(M_, x, zero()); }
+  /// The pair x = M⁻¹u, v = Mp of a part's point u and covector p, as doubles hold it. What x and v are
+  /// roundings of is a pair of the whole, and they themselves are none: in a metric that is nearly singular
+  /// ||x - M⁻¹u||_W, which moves the point and its residual, and ||v - Mp||_(W⁻¹) may be far above it.
+  Prox mapped(const Prox& part, const Vector& u, const Vector& p, const Vector& z, const Metric& W) const {
+    const Rounded x = preimage(u), v = image(p);
+    Prox whole = moved(part, x.value, v.value, part.error_bound, z, W);
+    const double off = 2 * W.norm(x.off) + W.dual_norm(v.off);
+    whole.error_bound += std::max(0.0, off - rounding_of_a_move(z, x.value, v.value, W));
+    return whole;
+  }
 
   Function h_;
   Metric M_;
@@ -112,7 +149,8 @@ class InProduct : public Operation {
 
 /// The conjugate h*(M⁻¹·) of h(M·), which it keeps. A map that undoes M⁻¹ is then left out together with it:
 /// taken one after the other, as rounded, the two leave condition(M) roundings in the point, and in the
-/// membership tolerance, which is relative to the terms of each.
+/// membership tolerance, which is relative to the terms of each. Points are mapped by M itself: its inverse
+/// is rounded, and another map.
 class ConjugateInProduct : public InProduct {
  public:
   ConjugateInProduct(const Function& primal, const InProduct& of)
@@ -128,6 +166,10 @@ class ConjugateInProduct : public InProduct {
   }
   /// The factor with M⁻¹V = factor, when there is one.
   std::optional<double> product(const Metric& V) const { return ratio(V, undone_by_); }
+
+ protected:
+  Rounded image(const Vector& x) const override { return quotient_of(undone_by_, x); }
+  Rounded preimage(const Vector& u) const override { return product_of(undone_by_, u); }
 
  private:
   Function primal_;

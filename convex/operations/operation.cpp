@@ -195,6 +195,8 @@ Prox Operation::prox_by_all_ways(const Vector& z, const Metric& W, const Look& l
   const Function g = conjugate();
   const auto* dual = dynamic_cast<const Operation*>(&g.node());
   if (dual && primal_of(g)) return *std::move(best);
+  // A conjugate of numbers that had to be rounded is that of another function, which no residual sees.
+  if (!is_diagonal_kind(W) && has_rounded_numbers(g.call())) return *std::move(best);
   const auto of_dual = [&](const Vector& point, const Metric& V) {
     return dual ? dual->own_prox(point, V, look) : std::optional(g.prox(point, V, look));
   };
@@ -232,12 +234,15 @@ Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const M
 
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W, const Metric& V) {
   if (part.status == Status::infeasible || part.x.size() == 0) return part;
-  const double rounding = roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x) + W.dual_norm(v));
-  part.error_bound = bound + V.dual_norm(stationarity(z, W, x, v)) + rounding;
+  part.error_bound = bound + V.dual_norm(stationarity(z, W, x, v)) + rounding_of_a_move(z, x, v, W);
   part.values.reset();
   part.x = std::move(x);
   part.v = std::move(v);
   return part;
+}
+
+double rounding_of_a_move(const Vector& z, const Vector& x, const Vector& v, const Metric& W) {
+  return roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x) + W.dual_norm(v));
 }
 
 Prox with_values(Prox whole, const std::optional<PairOfValues>& of_part, const Value& f_more,

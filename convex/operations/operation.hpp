@@ -62,6 +62,9 @@ class Operation : public FunctionNode {
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W);
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W, const Metric& V);
 
+/// The rounding of x and v that `moved` counts.
+double rounding_of_a_move(const Vector& z, const Vector& x, const Vector& v, const Metric& W);
+
 /// `whole` with the values of the part that it was moved from, f(x) and f*(v) raised by so much; without any
 /// where the part has none.
 Prox with_values(Prox whole, const std::optional<PairOfValues>& of_part, const Value& f_more = {},
