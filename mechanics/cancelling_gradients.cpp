@@ -84,7 +84,7 @@ std::vector<Weights> cancelling(const TightRows& tight) {
   std::vector<bool> free = tight.two_sided;
   free.flip();
   for (std::size_t k = 0; k < free.size(); ++k)
-    if (tight.U.row(static_cast<Index>(k)).norm() <= tight.radius[static_cast<Index>(k)]) {
+    if (tight.U.row(static_cast<Index>(k)).stableNorm() <= tight.radius[static_cast<Index>(k)]) {
       if (free[k]) found.push_back({{k, 1}});
       free[k] = false;
     }
@@ -92,7 +92,7 @@ std::vector<Weights> cancelling(const TightRows& tight) {
   RowMatrix unit_rows = tight.U;
   std::optional<convex::DataRadii> radii = convex::DataRadii{tight.radius, Vector::Zero(count)};
   for (Index k = 0; k < count; ++k)
-    if (const double length = tight.U.row(k).norm(); length > 0) {
+    if (const double length = tight.U.row(k).stableNorm(); length > 0) {
       unit_rows.row(k) /= length;
       radii->row[k] /= length;
     }

@@ -89,8 +89,13 @@ CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem,
 
 CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, const ExactData& data,
                                   const GaussOptions& options) {
+  const double most_words = options.accuracy.limit * convex::most_word_operations;
   CertifiedSolution found;
-  found.solution = solve(problem, options);
+  try {
+    found.solution = solve(problem, options);
+  } catch (const convex::InvalidInput&) {  // in no units do doubles hold these numbers
+    return solve_by_fractions(problem, data, options, most_words);
+  }
   std::optional<double> bound;
   if (data.are_doubles && has_answer(found.solution))
     bound = convex::enclosed_error(problem, found.solution.primal);
@@ -116,8 +121,7 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
       return found;
     }
   if (!small_enough(problem)) return bound ? enclosed() : found;
-  CertifiedSolution exact =
-      solve_by_fractions(problem, data, options, options.accuracy.limit * convex::most_word_operations);
+  CertifiedSolution exact = solve_by_fractions(problem, data, options, most_words);
   const bool gave_up = exact.solution.primal.status == Status::gave_up, is_whole = exact.exact->is_whole;
   const bool has_both = has_answer(found.solution) && has_answer(exact.solution);
   if (!gave_up && is_whole && (is_default(options) || !has_both)) return exact;

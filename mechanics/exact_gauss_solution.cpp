@@ -79,14 +79,13 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
   return found;
 }
 
-namespace {
-
-/// Whether the method had to ask fractions for the answer.
 bool is_decided_in_fractions(const convex::Solution& primal) {
   const auto& islands = primal.model.islands;
   return std::any_of(islands.begin(), islands.end(),
                      [](const convex::Island& island) { return !island.in_fractions.empty(); });
 }
+
+namespace {
 
 /// The rows of an answer that fractions gave: of the doubles of the data, if not of the data themselves.
 std::vector<Index> rows_decided(const convex::Solution& primal) {
@@ -221,7 +220,12 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
   std::optional<convex::ExactProblem> exact;
   if ((!is_named || is_solved) && n * n * n <= most_words) exact = data();
   if (exact && is_named) return judge_in_fractions(found, exact, problem, options, open);
-  if (exact) solve_on_exact_data(found, *exact, problem, options, open);
+  // What fractions could not do with the doubles they are not asked again for numbers that are as long.
+  const auto held = static_cast<std::size_t>(std::min(problem.rows(), problem.dimension()));
+  const bool was_too_long = !problem.radii && !is_solved && !found.primal.undecided.empty();
+  if (exact && !(was_too_long && 2 * convex::word_operations(*exact, held) >
+                                     convex::word_operations(convex::exact_problem(problem), held)))
+    solve_on_exact_data(found, *exact, problem, options, open);
   if (found.as_written) return;
   // Where the answer is at rounding it is the tolerance that is too small.
   const bool is_open = open != convex::open_question::conditioning || !is_at_rounding(found.primal);

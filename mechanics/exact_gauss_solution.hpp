@@ -28,6 +28,9 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
                                  const std::vector<Index>& rows = {},
                                  double most_words = std::numeric_limits<double>::infinity());
 
+/// Whether the method had to ask fractions for the answer.
+bool is_decided_in_fractions(const convex::Solution&);
+
 /// What a solve in doubles left open of the data as they are (`convex::open_question`), of q or of the
 /// multipliers; empty where nothing is.
 std::string_view open_question_of(const convex::NearestPointProblem&, const GaussSolution&);

@@ -8,6 +8,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/dependent_rows.hpp"
+#include "mechanics/exact_gauss_solution.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 #include "mechanics/vertex.hpp"
@@ -54,10 +55,10 @@ Reduced reduced(const convex::NearestPointProblem& problem, const convex::Soluti
 /// By section 5's cone at x_0: the two-sided solution, or, where the contacts contradict each other as
 /// equations only because of redundant ones, the vertex that is left without those.
 std::optional<ReactionFromDual> from_dual(const convex::NearestPointProblem& problem,
-                                          const GaussSolution& solution) {
+                                          const GaussSolution& solution, double limit) {
   TwoSided at_vertex = solution.hypothesis.two_sided;
   if (!at_vertex.consistent)
-    if (auto vertex = vertex_acceleration(problem)) {
+    if (auto vertex = vertex_acceleration(problem, limit)) {
       at_vertex.consistent = true;
       at_vertex.acceleration = *std::move(vertex);
     }
@@ -148,8 +149,13 @@ GaussSolution solve_in_units(const convex::NearestPointProblem& problem, const G
                                                   : convex::residuals(problem, found.primal.q, lambda);
   found.reaction = reaction(problem, found.primal.q, lambda);
   found.gauss = found.primal.q.dot(0.5 * problem.A.multiply(found.primal.q) - problem.z);
-  found.hypothesis = hypothesis(problem, found.primal, tolerance);
-  if (problem.rows() <= most_contacts_from_dual) found.from_dual = from_dual(problem, found);
+  // Where fractions have not decided q within their limit, they are not asked for what follows from it; and
+  // where they have, not for a second way.
+  const double limit = found.primal.undecided.empty() ? options.accuracy.limit : 0,
+               limit_of_other_way = is_decided_in_fractions(found.primal) ? 0 : limit;
+  found.hypothesis = hypothesis(problem, found.primal, tolerance, limit);
+  if (problem.rows() <= most_contacts_from_dual)
+    found.from_dual = from_dual(problem, found, limit_of_other_way);
   return found;
 }
 

@@ -42,7 +42,7 @@ std::vector<Index> all_rows(const NearestPointProblem& problem) {
 
 /// From this size on sparse factors are used where the data allow it. Contradictions, of which nobody asks
 /// for the weights, and what else doubles can tell cost no fractions.
-Solution held_solution(const NearestPointProblem& problem) {
+Solution held_solution(const NearestPointProblem& problem, double limit = 1) {
   constexpr Index large = 200;
   const auto solve = [&](const convex::Accuracy& accuracy) {
     return problem.dimension() >= large ? convex::automatic(problem, accuracy)
@@ -51,7 +51,8 @@ Solution held_solution(const NearestPointProblem& problem) {
   convex::Accuracy in_doubles;
   in_doubles.limit = 0;
   Solution found = solve(in_doubles);
-  return found.status == Status::solved || found.status == Status::infeasible ? found : solve({});
+  const bool ended = found.status == Status::solved || found.status == Status::infeasible;
+  return ended || !(limit > 0) ? found : solve({.limit = limit});
 }
 
 }  // namespace
@@ -60,7 +61,8 @@ convex::Solution two_sided_motion(const NearestPointProblem& problem) {
   return held_solution(held(problem, all_rows(problem)));
 }
 
-Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth, double tolerance) {
+Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth, double tolerance,
+                      double limit) {
   Hypothesis found;
   const double scale = std::max(truth.acceleration_norm, truth.force_norm);
   // At rest the scale is a rounding itself: what the bound of an answer leaves open is no difference either.
@@ -78,7 +80,7 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
   };
   if (all_persist && problem.rows() > most_contacts_from_dual) return read_off();
   const NearestPointProblem classical = held(problem, all);
-  const Solution solution = held_solution(classical);
+  const Solution solution = held_solution(classical, limit);
   if (!has_answer(solution)) return all_persist ? read_off() : found;
   if (all_persist && same(solution.q)) {
     found.two_sided = {true, solution.q, solution.lambda, true};
@@ -127,7 +129,7 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
   // Accelerations that are the same within the tolerance may be those of other forces.
   if (set.unique && !found.negative.empty()) found.accepted = false;
   if (found.accepted || !set.unique) return found;
-  const Solution dropped = held_solution(held(problem, kept));
+  const Solution dropped = held_solution(held(problem, kept), limit);
   if (has_answer(dropped)) found.drop_negative_acceleration = dropped.q;
   // What is not solved is no truth to judge the rule by.
   if (truth.status == convex::Status::solved)

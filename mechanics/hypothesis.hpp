@@ -43,6 +43,8 @@ inline constexpr Index most_contacts_from_dual = 200;
 convex::Solution two_sided_motion(const convex::NearestPointProblem&);
 
 /// Judges the hypothesis against the true solution; numbers within `tolerance` of their scale count as zero.
-Hypothesis hypothesis(const convex::NearestPointProblem&, const convex::Solution& truth, double tolerance);
+/// limit: of fractions, as in `convex::Accuracy`.
+Hypothesis hypothesis(const convex::NearestPointProblem&, const convex::Solution& truth, double tolerance,
+                      double limit = 1);
 
 }  // namespace mechanics

@@ -41,6 +41,12 @@ double largest_asked(const convex::NearestPointProblem& problem) {
   return found;
 }
 
+/// x / first / second, units: powers of 2 whose product or quotients may leave the range.
+Vector divided(const Vector& x, double first, double second) {
+  const int power = -std::ilogb(first) - std::ilogb(second);
+  return x.unaryExpr([&](double entry) { return std::ldexp(entry, power); });
+}
+
 convex::ConstraintRows divided(const convex::ConstraintRows& U, double unit) {
   if (U.is_sparse()) return convex::ConstraintRows(convex::SparseRows(U.sparse() / unit));
   return convex::ConstraintRows(convex::RowMatrix(U.dense() / unit));
@@ -62,9 +68,9 @@ Units fit_units(const convex::NearestPointProblem& problem) {
 
 convex::NearestPointProblem in_units(const convex::NearestPointProblem& problem, const Units& units) {
   convex::NearestPointProblem scaled{problem.A.scaled(1 / units.mass),
-                                     problem.z / units.acceleration / units.mass,
+                                     divided(problem.z, units.acceleration, units.mass),
                                      divided(problem.U, units.gradient),
-                                     problem.s / units.acceleration / units.gradient,
+                                     divided(problem.s, units.acceleration, units.gradient),
                                      problem.two_sided,
                                      problem.radii};
   if (scaled.radii) {

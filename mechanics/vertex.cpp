@@ -25,7 +25,7 @@ constexpr double depth = 0x1p20;
 constexpr double rest_roundings = 64 * unit_roundoff;
 
 /// The point of C that is lowest for the sum of the one-sided u_a, each of length 1, where that has one.
-convex::Solution lowest_point(const NearestPointProblem& problem, const Vector& length) {
+convex::Solution lowest_point(const NearestPointProblem& problem, const Vector& length, double limit) {
   NearestPointProblem deep = problem;
   Vector sum = Vector::Zero(problem.dimension());
   double size = problem.A.dual_norm(problem.z);
@@ -35,18 +35,18 @@ convex::Solution lowest_point(const NearestPointProblem& problem, const Vector& 
     if (!problem.is_two_sided(a)) sum += problem.U.row(a) / length[a];
   }
   deep.z -= depth * (size > 0 ? size : 1) * sum;
-  return convex::active_set(deep);
+  return convex::active_set(deep, {.limit = limit});
 }
 
 }  // namespace
 
-std::optional<Vector> vertex_acceleration(const NearestPointProblem& problem) {
+std::optional<Vector> vertex_acceleration(const NearestPointProblem& problem, double limit) {
   const Index m = problem.rows();
   std::vector<Index> all(static_cast<std::size_t>(m)), held, free, others;
   std::iota(all.begin(), all.end(), Index{0});
   Matrix V = convex::whitened_rows(problem, all);
   const Vector length = V.colwise().norm();
-  convex::Solution lowest = lowest_point(problem, length);
+  convex::Solution lowest = lowest_point(problem, length, limit);
   if (lowest.status != convex::Status::solved) return std::nullopt;
   const convex::DoubleDoubleVector q(lowest.q);
   const Vector size = lowest.q.cwiseAbs();

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "convex/composite/work_limit.hpp"
-#include "convex/cutting_planes.hpp"
 #include "convex/functions/closed_form.hpp"
+#include "convex/functions/cutting_planes.hpp"
+#include "convex/functions/other_pairs.hpp"
 #include "convex/functions/split_search.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/takes_product.hpp"
-#include "convex/other_pairs.hpp"
 #include "convex/proved_prox/proved_split.hpp"
 
 namespace convex::inline named_functions {

@@ -7,9 +7,9 @@
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/interior.hpp"
+#include "convex/functions/other_pairs.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/operations/tied_parts.hpp"
-#include "convex/other_pairs.hpp"
 
 namespace convex::inline named_functions {
 namespace {

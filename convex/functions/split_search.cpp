@@ -7,11 +7,11 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
-#include "convex/cutting_planes.hpp"
 #include "convex/functions/closed_form.hpp"
+#include "convex/functions/cutting_planes.hpp"
+#include "convex/functions/other_pairs.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
-#include "convex/other_pairs.hpp"
 
 namespace convex::inline named_functions {
 namespace {

@@ -7,8 +7,6 @@
 namespace convex::inline proof {
 namespace {
 
-std::size_t place_of(Index k) { return at(k); }
-
 /// A direction d with u_a·d about `length_a` on one-sided rows and 0 on two-sided ones, as short as can be.
 std::optional<Vector> opening(const NearestPointProblem& problem, const std::vector<Index>& rows,
                               const std::vector<bool>& two_sided, const Vector& length) {
@@ -18,11 +16,11 @@ std::optional<Vector> opening(const NearestPointProblem& problem, const std::vec
                            Vector::Zero(static_cast<Index>(rows.size())),
                            {}};
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (two_sided[place_of(rows[k])])
+    if (two_sided[at(rows[k])])
       open.two_sided.push_back(static_cast<Index>(k));
     else
       open.s[static_cast<Index>(k)] = length[rows[k]];
-  const Solution found = automatic(open);
+  const Solution found = automatic(open, {.limit = 0});  // whatever it is, what it opens is measured
   if (found.q.size() != problem.dimension() || !found.q.allFinite()) return std::nullopt;
   return found.q;
 }
@@ -82,9 +80,9 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   Vector row(n);
   Vector missed = Vector::Zero(k);
   for (Index r = 0; r < k; ++r) {
-    if (!two_sided[place_of(held[place_of(r)])]) continue;
+    if (!two_sided[at(held[at(r)])]) continue;
     row = active.U.row(r);
-    const Range range = along(row, radii, held[place_of(r)], *d, 0);
+    const Range range = along(row, radii, held[at(r)], *d, 0);
     missed[r] = std::max(std::abs(range.low), std::abs(range.high));
   }
   const double weak = above(std::sqrt((1 + P.delta) / below(1 - active.delta)));
@@ -94,9 +92,9 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   // How far every row opens, and what that costs: λ_S·U_S d.
   double cost = 0, steepest = 0;
   for (Index r = 0; r < k; ++r) {
-    if (two_sided[place_of(held[place_of(r)])]) continue;
+    if (two_sided[at(held[at(r)])]) continue;
     row = active.U.row(r);
-    const Range range = along(row, radii, held[place_of(r)], *d, 0);
+    const Range range = along(row, radii, held[at(r)], *d, 0);
     const double lambda = point.lambda[r] + point.dlambda[r], radius = point.multiplier_radius[r];
     const double least = below(lambda) - above(radius);
     if (!(range.low >= 0) || !(least > 0)) return std::nullopt;

@@ -1,4 +1,4 @@
-#include "convex/cutting_planes.hpp"
+#include "convex/functions/cutting_planes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "convex/other_pairs.hpp"
+#include "convex/functions/other_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "convex/functions/closed_form.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
@@ -279,4 +279,4 @@ std::optional<Prox> along_slopes(const Function& f, const std::optional<Prox>& n
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -1,4 +1,4 @@
-#include "convex/cutting_planes.hpp"
+#include "convex/functions/cutting_planes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/sum.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 constexpr Index most_entries = 16;
@@ -252,4 +252,4 @@ std::optional<Prox> prox_by_cuts(const Function& f, const Vector& x_0, const Vec
   return SearchByCuts(f, x_0, z, W, look).run(enough);
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -8,7 +8,7 @@
 /// Other pairs of a point x and its covector v than the two proxes of a decomposition gave: what rounding
 /// spoils in one representation another may keep. Each comes with its own bound of ||x - x*||_W. None where
 /// there is no such pair.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// Where rounding left the point outside the domain, or on the far side of the membership tolerance, the
 /// nearest point of the domain; the move is part of the bound.
@@ -45,4 +45,4 @@ std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at,
 std::optional<Prox> along_slopes(const Function& f, const std::optional<Prox>& near, const Vector& z,
                                  const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions
