@@ -236,6 +236,8 @@ std::string dual_text(const SolvedScene& solved) {
 /// Of which mechanism the accuracy speaks: contacts that the tolerance closed are not as they were written.
 std::string mechanism_text(const SolvedScene& solved) {
   const std::vector<Index>& closed = solved.closed_by_tolerance;
+  if (closed.empty() && !solved.solution.primal.undecided.empty())
+    return "the mechanism as written if the rows that may depend on each other do";
   if (closed.empty())
     return solved.on_edge ? "the mechanism as written, on the branch that is taken"
                           : "the mechanism as written";

@@ -51,19 +51,14 @@ class InfConvolution : public Operation {
         length_of(found.least.head(x.size())) > far_out * length_of(x))
       found.value.error = infinity;
     if (found.least.size() >= x.size() && !is_of_rounding(found.value)) {
-      const Vector w = found.least.head(x.size());
-      const Value at_w =
-          sum_of(value_near(f_, difference(x, w), length_of(x) + length_of(w)), g_.evaluate(w));
+      const Value at_w = value_of_split(x, found.least.head(x.size()));
       found.value = between_points(found.value, at_w, found.slope, conjugate(), x);
     }
     const OneAtATime question(OneAtATime::Kind::least_on_line);  // one in another would take its square
     if (x.size() == 1 && question.first() && !is_of_rounding(found.value)) {
       // The least over w is found from values of f and g alone.
       const double start = found.least.size() > 0 ? found.least[0] : x[0] / 2;
-      const auto at = [&](double w) {
-        const Vector part = Vector::Constant(1, w);
-        return sum_of(value_near(f_, difference(x, part), length_of(x) + std::abs(w)), g_.evaluate(part));
-      };
+      const auto at = [&](double w) { return value_of_split(x, Vector::Constant(1, w)); };
       const Value least = least_on_line(at, start);
       if (least.error < found.value.error) found.value = least;
     }
@@ -123,6 +118,25 @@ class InfConvolution : public Operation {
       if (const auto term = quadratic_term(g, n))
         if (auto kernel = kernel_of(*term)) return Smoothing{f, g, *std::move(kernel)};
     return std::nullopt;
+  }
+  /// f(x - w) + g(w) with one of the parts moved to the nearest point of its domain: where the other is steep
+  /// there, even a point that counts as a member is too far. What is too far is too low.
+  Value value_of_split(const Vector& x, const Vector& w) const {
+    const double size = length_of(x) + length_of(w);
+    const Vector in_f = nearest_member(f_, difference(x, w).hi, size), in_g = nearest_member(g_, w, size);
+    const Value by_g = sum_of(value_near(f_, difference(x, in_g), size), g_.evaluate(in_g));
+    if (f_.facts().finite) return by_g;
+    const Value by_f = sum_of(f_.evaluate(in_f), value_near(g_, difference(x, in_f), size));
+    return by_f.value > by_g.value ? by_f : by_g;
+  }
+  /// The nearest point of the domain, where a formula gives it.
+  static Vector nearest_member(const Function& f, const Vector& x, double size) {
+    const Facts facts = f.facts();
+    if (facts.finite || !(facts.indicator || facts.separable)) return x;
+    const double near = std::min(size, 1.0), weight = facts.indicator ? 1 : stiffest_weight / (near * near);
+    if (!std::isfinite(weight)) return x;
+    Vector found = f.prox(x, Metric::diagonal(Vector::Constant(x.size(), weight)), Look{}).x;
+    return found.size() == x.size() && found.allFinite() ? found : x;
   }
   /// f(w) + g(x - w) by g's own formula: of a g moved far the terms of q are large, and cancel. It is above
   /// the minimum by no more than the square of what w is off by.

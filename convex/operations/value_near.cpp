@@ -10,9 +10,8 @@
 namespace convex::inline operations {
 namespace {
 
-/// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
-/// domain.
-constexpr double nearest_point_weight = 1e12, stiffest_weight = 1e30;
+/// What weighs more than most functions, as `stiffest_weight` does than any.
+constexpr double nearest_point_weight = 1e12;
 
 /// The product with y.lo is right to so many roundings of its terms.
 constexpr double roundings_of_a_term = 4;

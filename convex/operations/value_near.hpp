@@ -5,6 +5,10 @@
 
 namespace convex::inline operations {
 
+/// So much over the scale squared weighs more than any function: a prox in that metric is the nearest point
+/// of the domain.
+inline constexpr double stiffest_weight = 1e30;
+
 /// |x|, also where its square is no ordinary double: of a miss of 1e-170 it is not 0.
 double length_of(const Vector& x);
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/cli/program.hpp"
 
@@ -60,4 +62,46 @@ TEST_CASE("two-sided multipliers of contacts told in units far apart are those o
     CAPTURE(name);
     CHECK(press["two_sided"]["multipliers"][name].get<double>() == doctest::Approx(lambda).epsilon(1e-8));
   }
+}
+
+TEST_CASE("what a plain answer solves of numbers whose ratios leave the range of doubles is certified too") {
+  const Folder folder;
+  struct Case {
+    const char* text;
+    std::vector<double> q;
+  };
+  const Case cases[] = {
+      {"[projection]\nA = [[1.0]]\nz = [0.0]\nU = [[1.0], [1e254]]\ns = [0.25, -1e254]\n", {0.25}},
+      {"[projection]\nA = [[1e300, 0.0], [0.0, 1e-94]]\nz = [0.0, 0.0]\nU = [[0.0, 2e-59]]\ns = [1.0]\n",
+       {0, 5e58}}};
+  for (const Case& one : cases) {
+    CAPTURE(one.text);
+    const std::string file = folder.write("far.toml", one.text);
+    for (const bool certify : {false, true}) {
+      const auto outcome =
+          certify ? run({"solve", "--certify", "--json", file}) : run({"solve", "--json", file});
+      REQUIRE(outcome.code == 0);
+      const Json found = Json::parse(outcome.out);
+      CHECK(found["status"] == "solved");
+      for (std::size_t i = 0; i < one.q.size(); ++i)
+        CHECK(found["acceleration"]["q[" + std::to_string(i) + "]"].get<double>() ==
+              doctest::Approx(one.q[i]).epsilon(1e-15));
+      if (certify) CHECK(found["certificate"]["level"] == "exact");
+    }
+  }
+}
+
+TEST_CASE("a constraint of 1e200 that just holds is no wrong input") {
+  const Folder folder;
+  const std::string file =
+      folder.write("far.toml",
+                   "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"1/2*(x'^2 + y'^2)\"\n"
+                   "potential = \"9.81*y\"\n[system.constraints]\nfloor = \"y >= 0\"\n"
+                   "far = \"1e200*x >= -1e200\"\n[state]\nposition = { x = -1, y = 0 }\n");
+  const auto outcome = run({"solve", "--json", file});
+  REQUIRE(outcome.code == 0);
+  const Json found = Json::parse(outcome.out);
+  CHECK(found["acceleration"]["x"] == 0);
+  CHECK(found["acceleration"]["y"] == 0);
+  CHECK(found["multipliers"]["floor"].get<double>() == doctest::Approx(9.81).epsilon(1e-15));
 }

@@ -4,10 +4,13 @@
 
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex::inline proof {
 namespace {
@@ -70,6 +73,45 @@ std::optional<Solution> in_fractions(const NearestPointProblem& problem, const S
   return solution;
 }
 
+/// A contradiction of few rows: of one that lies in the span of the working set, as far as doubles tell, with
+/// those that it is made of. Nothing else is looked at, so that it takes as long as these are many. None
+/// where no such row contradicts the others, or the problem is too large for a dense factor.
+std::optional<Solution> contradiction_of_few_rows(const NearestPointProblem& problem, const Solution& open) {
+  if (!is_dense_size(problem) || open.slack.size() != problem.rows()) return std::nullopt;
+  WorkingSet set(problem);
+  WorkingSet::Split split;
+  for (Index a : open.basis) {
+    set.split(a, split);
+    if (split.rho > 0) set.append(a, split, 0);
+  }
+  const Vector magnitude = open.q.cwiseAbs();
+  for (Index p = 0; p < problem.rows(); ++p) {
+    const double terms = std::abs(problem.s[p]) + problem.U.absolute_dot(p, magnitude);
+    if (set.holds(p) || !(open.slack[p] <= near_zero * terms)) continue;
+    set.split(p, split);
+    if (split.rho > 0) continue;
+    for (const double sign : {1.0, -1.0}) {
+      if (sign < 0 && !problem.is_two_sided(p)) continue;
+      const Vector weights = contradiction_weights(set, p, split, sign);
+      if (std::any_of(set.rows().begin(), set.rows().end(),
+                      [&](Index a) { return weights[a] < 0 && !problem.is_two_sided(a); }))
+        continue;
+      if (const auto proof = infeasibility_proof(problem, weights)) {
+        Solution found;
+        found.status = Status::infeasible;
+        found.method = open.method;
+        found.steps = open.steps;
+        found.force_norm = open.force_norm;
+        found.farkas = proof->farkas;
+        found.model.islands = {
+            {open.method, problem.dimension(), problem.rows(), 0, 0, 0, open_question::contradiction}};
+        return found;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 Solution left_open(Solution open) {
   if (open.status == Status::solved) open.status = Status::inaccurate;
   if (open.status == Status::infeasible) open.status = Status::gave_up;
@@ -87,6 +129,7 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
     return open;
   std::optional<Solution> found =
       in_fractions(problem, open, accuracy, accuracy.limit * most_word_operations, open.undecided);
+  if (!found && accuracy.limit > 0) found = contradiction_of_few_rows(problem, open);
   return found ? *std::move(found) : left_open(std::move(open));
 }
 

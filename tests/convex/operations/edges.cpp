@@ -75,6 +75,25 @@ TEST_CASE("the bound of a conjugate's value is true where the split that attains
   }
 }
 
+TEST_CASE("the bound of a conjugate's value is true where the split that attains it is at a steep end") {
+  // Of f + 1/|x|^q where f has the slope 1 far out and no more: f*(1), which no x attains; -1/|x|^q is there.
+  struct Case {
+    const char* text;
+    double value;
+  };
+  for (const Case& at : {Case{"sum(inverse_power(2), norm1(1))", 0},
+                         {"sum(inverse_power(2), huber(1))", 0.5},
+                         {"sum(inverse_power(2), logistic())", 0},
+                         {"sum(logistic(), inverse_power(2))", 0},
+                         {"sum(norm1(1), inverse_power(3))", 0}}) {
+    CAPTURE(std::string(at.text));
+    const Value found = samples::function(at.text, 1).conjugate().evaluate(Vector{{1}});
+    CAPTURE(found.value);
+    CHECK(std::abs(found.value - at.value) <= found.error);
+    CHECK(found.error <= 1e-9);
+  }
+}
+
 TEST_CASE("a convolution whose slope is at a steep end of its conjugate has its value at every scale") {
   struct Steep {
     const char* f;
