@@ -1,7 +1,9 @@
 #include "convex/nearest_point/cone_projection.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/linear_algebra/orthogonal_factor.hpp"
 
 namespace convex {
@@ -73,6 +75,16 @@ class PassiveSet {
 
 ConeProjection cone_projection(const Matrix& V, const Vector& b, const std::vector<Index>& free_generators) {
   const Index m = V.cols();
+  // A cone does not change with the lengths of its generators; of those without squares it cannot be told.
+  Vector unit = Vector::Ones(m);
+  for (Index a = 0; a < m; ++a)
+    if (const auto v = V.col(a); !has_squares(v.norm()) && !v.isZero(0) && v.allFinite())
+      unit[a] = std::ldexp(1, std::max(-1000, std::ilogb(v.cwiseAbs().maxCoeff())));
+  if ((unit.array() != 1).any()) {
+    ConeProjection found = cone_projection(V * unit.cwiseInverse().asDiagonal(), b, free_generators);
+    found.lambda = found.lambda.cwiseQuotient(unit);
+    return found;
+  }
   std::vector<bool> is_free(static_cast<std::size_t>(m), false), barred(static_cast<std::size_t>(m), false);
   bool untold = false;
   PassiveSet passive(V, b);

@@ -39,3 +39,25 @@ TEST_CASE(
     CHECK(on_cone.lambda.minCoeff() >= 0);
   }
 }
+
+TEST_CASE("generators of any length span the cone that those of length 1 span") {
+  std::mt19937 draw(1966);
+  std::normal_distribution<double> normal;
+  for (int round = 0; round < 40; ++round) {
+    const Matrix V = Matrix::NullaryExpr(3, 5, [&] { return normal(draw); });
+    const Vector b = Vector::NullaryExpr(3, [&] { return normal(draw); });
+    const std::vector<Index> free = round % 2 == 0 ? std::vector<Index>{1} : std::vector<Index>{};
+    const convex::ConeProjection plain = convex::cone_projection(V, b, free);
+    const Vector power{{-531, 700, 0, -1020, 481}};  // powers of 2: nothing is rounded
+    Matrix far = V;
+    for (Index a = 0; a < 5; ++a)
+      far.col(a) = V.col(a).unaryExpr([&](double v) { return std::ldexp(v, static_cast<int>(power[a])); });
+    const convex::ConeProjection found = convex::cone_projection(far, b, free);
+    REQUIRE(plain.finished);
+    REQUIRE(found.finished);
+    CHECK((found.point - plain.point).norm() <= 1e-14 * b.norm());
+    for (Index a = 0; a < 5; ++a)
+      CHECK(std::ldexp(found.lambda[a], static_cast<int>(power[a])) ==
+            doctest::Approx(plain.lambda[a]).epsilon(1e-12));
+  }
+}
