@@ -45,9 +45,10 @@ void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Pro
   found.error_bound += length;
 }
 
-/// Norms by a rounded factor of W are right to such a part of themselves, which bounds are short of where W
-/// is nearly singular.
+/// Norms by a rounded factor of a full W are right to such a part of themselves, which bounds are short of
+/// where W is nearly singular.
 double rounding_of_norms(const Metric& W) {
+  if (W.kind() != MetricKind::dense) return 0;
   constexpr double roundings = 4;
   const double condition = W.factor_condition();
   return roundings * static_cast<double>(W.dimension()) * unit_roundoff * condition * condition;

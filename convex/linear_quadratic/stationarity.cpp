@@ -1,5 +1,7 @@
 #include "convex/linear_quadratic/stationarity.hpp"
 
+#include <algorithm>
+
 namespace convex {
 namespace {
 
@@ -84,9 +86,19 @@ Vector defect_terms(const LinearQuadratic& f, const Vector& xi, const Vector& la
 }
 
 Vector softness_of_entries(const Metric& W) {
-  Matrix columns = Matrix::Identity(W.dimension(), W.dimension());
-  W.whiten_in_place(columns);
-  return columns.colwise().norm();
+  if (W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal)
+    return W.diagonal().cwiseSqrt().cwiseInverse();
+  constexpr Index width = 64;  // columns whitened at once
+  const Index n = W.dimension();
+  Vector found(n);
+  for (Index first = 0; first < n; first += width) {
+    const Index count = std::min(width, n - first);
+    Matrix columns = Matrix::Zero(n, count);
+    columns.middleRows(first, count).setIdentity();
+    W.whiten_in_place(columns);
+    found.segment(first, count) = columns.colwise().norm();
+  }
+  return found;
 }
 
 }  // namespace convex
