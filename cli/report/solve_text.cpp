@@ -10,6 +10,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "convex/double_double.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/exact_gauss_solution.hpp"
 #include "mechanics/gauss_laws.hpp"
 
@@ -236,7 +237,7 @@ std::string dual_text(const SolvedScene& solved) {
 /// Of which mechanism the accuracy speaks: contacts that the tolerance closed are not as they were written.
 std::string mechanism_text(const SolvedScene& solved) {
   const std::vector<Index>& closed = solved.closed_by_tolerance;
-  if (closed.empty() && !solved.solution.primal.undecided.empty())
+  if (closed.empty() && solved.solution.primal.undecided == convex::open_question::dependence)
     return "the mechanism as written if the rows that may depend on each other do";
   if (closed.empty())
     return solved.on_edge ? "the mechanism as written, on the branch that is taken"

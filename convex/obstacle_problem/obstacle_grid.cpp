@@ -25,8 +25,8 @@ class GridSolver {
         sharp_(sharp),
         multigrid_(multigrid),
         told_(told),
-        free_(A_.field()),
-        nothing_(A_.field()) {
+        z_(grid.z),
+        free_(A_.field()) {
     point_.q = DoubleDoubleVector(A_.size());
     point_.rest = A_.field();
     for (Vector* colour : {&even_, &odd_}) *colour = Vector::Zero(A_.width + 1);
@@ -107,13 +107,6 @@ class GridSolver {
                              point_.rest.data() + k);
     });
   }
-  void precise_residual() {
-    for_rows([&](Index k) {
-      grid_kernels::precise_residual(A_.width, A_.stride(), A_.d, A_.c, grid_.z.data() + k,
-                                     nothing_.data() + k, point_.q.hi.data() + k, point_.q.lo.data() + k,
-                                     point_.rest.data() + k);
-    });
-  }
 
   /// Points are free unless their multiplier outweighs their height; how many changed.
   Index choose() {
@@ -142,14 +135,14 @@ class GridSolver {
     hold();
     const double scale = std::sqrt(std::abs(point_.q.hi.dot(grid_.z)));
     for (int j = 0; j < most_refinements; ++j) {
-      precise_residual();
+      precise_residual(A_, z_, point_.q, point_.rest);
       const GridMultigrid::Size size =
           multigrid_.solve(point_.rest, fine_part, correction_, enough / 4 * scale);
       point_.q.add(correction_);
       point_.missing = 2 * size.missing;
       if (point_.missing <= enough * scale) break;
     }
-    precise_residual();
+    precise_residual(A_, z_, point_.q, point_.rest);
     const double height = point_.q.hi.cwiseAbs().maxCoeff(), noise = 0x1p-80 * (A_.d * height);
     Index wrong = 0;
     // Points within what is missing of their bound lie on it.
@@ -176,10 +169,20 @@ class GridSolver {
   GridMultigrid& multigrid_;
   const std::function<void(Index)>& told_;
   ObstaclePoint point_;
-  Vector free_, nothing_, correction_, even_, odd_;
+  const DoubleDoubleVector z_;
+  Vector free_, correction_, even_, odd_;
 };
 
 }  // namespace
+
+void precise_residual(const GridOperator& A, const DoubleDoubleVector& z, const DoubleDoubleVector& u,
+                      Vector& rest) {
+  for (Index j = 0; j < A.height; ++j) {
+    const Index k = A.at(0, j);
+    grid_kernels::precise_residual(A.width, A.stride(), A.d, A.c, z.hi.data() + k, z.lo.data() + k,
+                                   u.hi.data() + k, u.lo.data() + k, rest.data() + k);
+  }
+}
 
 ObstaclePoint solve_obstacle_grid(const ObstacleGrid& grid, GridMultigrid& multigrid,
                                   const std::function<void(Index)>& told) {

@@ -28,6 +28,10 @@ struct ObstaclePoint {
   bool ended = false;  ///< the active set belongs to q, with all digits
 };
 
+/// rest := z - Au at the points of the grid, both pairs, rounded once.
+void precise_residual(const GridOperator& A, const DoubleDoubleVector& z, const DoubleDoubleVector& u,
+                      Vector& rest);
+
 /// Primal-dual active sets (Hintermüller, Ito and Kunisch 2003), which end after finitely many steps for
 /// M-matrices, nested from a grid of 8 points to the one given, after projected sweeps that bring the set
 /// close; refined with residuals in twice the working precision, after which the signs are checked again.

@@ -198,17 +198,6 @@ double grid_norm(const GridOperator& A, const Vector& u) {
   return std::sqrt(energy);
 }
 
-/// z - Au, both pairs, rounded.
-Vector precise_residual(const GridOperator& A, const DoubleDoubleVector& z, const DoubleDoubleVector& u) {
-  Vector rest = A.field();
-  for (Index j = 0; j < A.height; ++j) {
-    const Index k = A.at(0, j);
-    grid_kernels::precise_residual(A.width, A.stride(), A.d, A.c, z.hi.data() + k, z.lo.data() + k,
-                                   u.hi.data() + k, u.lo.data() + k, rest.data() + k);
-  }
-  return rest;
-}
-
 /// ||c||_(A⁻¹) of fields without a factor of A.
 class GridNorm {
  public:
@@ -229,7 +218,7 @@ class GridNorm {
   }
   /// To a hundredth: what is found lacks the square of the part left.
   double rough_dual(const Vector& c) {
-    constexpr double close = 1e-4;
+    constexpr double close = 0.1;
     Vector u;
     return multigrid_.solve(c, close, u).found;
   }
@@ -278,8 +267,8 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   found.acceleration_norm = grid_norm(grid->A, point.q.hi);
   GridNorm norm(grid->A, multigrid);
   found.force_norm = norm.dual(grid->z);
-  const double unbalanced =
-      norm.rough_dual(precise_residual(grid->A, pushed, DoubleDoubleVector(point.q.hi)));
+  precise_residual(grid->A, pushed, DoubleDoubleVector(point.q.hi), point.rest);
+  const double unbalanced = norm.rough_dual(point.rest);
   found.residuals =
       residuals(problem, found,
                 {.length = std::move(length), .magnitude = std::move(magnitude), .stationarity = unbalanced});

@@ -77,6 +77,7 @@ std::optional<Solution> in_fractions(const NearestPointProblem& problem, const S
 /// those that it is made of. Nothing else is looked at, so that it takes as long as these are many. None
 /// where no such row contradicts the others, or the problem is too large for a dense factor.
 std::optional<Solution> contradiction_of_few_rows(const NearestPointProblem& problem, const Solution& open) {
+  constexpr Index few = 32;  // beyond, the proof would not be quick
   if (!is_dense_size(problem) || open.slack.size() != problem.rows()) return std::nullopt;
   WorkingSet set(problem);
   WorkingSet::Split split;
@@ -93,7 +94,8 @@ std::optional<Solution> contradiction_of_few_rows(const NearestPointProblem& pro
     for (const double sign : {1.0, -1.0}) {
       if (sign < 0 && !problem.is_two_sided(p)) continue;
       const Vector weights = contradiction_weights(set, p, split, sign);
-      if (std::any_of(set.rows().begin(), set.rows().end(),
+      if ((weights.array() != 0).count() > few ||
+          std::any_of(set.rows().begin(), set.rows().end(),
                       [&](Index a) { return weights[a] < 0 && !problem.is_two_sided(a); }))
         continue;
       if (const auto proof = infeasibility_proof(problem, weights)) {
