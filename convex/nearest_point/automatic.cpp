@@ -5,7 +5,6 @@
 
 #include "convex/dense/dense_kernels.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/guess.hpp"
 #include "convex/nearest_point/isotonic/bordered_chain.hpp"
 #include "convex/nearest_point/isotonic/chain.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
@@ -169,9 +168,7 @@ Solution solve_island(const NearestPointProblem& problem, const Accuracy& accura
     if (place[at(a)] >= 0) part_guess.push_back(place[at(a)]);
   Solution found = solve_all_rows(part, accuracy, part_guess);
   JoinedIslands whole(problem);
-  std::vector<Index> all(at(problem.dimension()));
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
-  whole.add(std::move(found), all, kept);
+  whole.add(std::move(found), indices_below(problem.dimension()), kept);
   for (Index a : out) whole.leave_out(a, LeftOutBecause::out_of_reach);
   return whole.finish(accuracy);
 }

@@ -1,5 +1,6 @@
 #include "convex/nearest_point/problem.hpp"
 
+#include <numeric>
 #include <string>
 
 #include "convex/dense/dense_kernels.hpp"
@@ -35,18 +36,22 @@ std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
   return mark;
 }
 
+std::vector<Index> indices_below(Index count) {
+  std::vector<Index> all(at(count));
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
 Vector unit_lengths(const Metric& A) {
   constexpr Index many = 500;  // beyond, an inverse takes longer than what needs it
-  const bool is_diagonal = A.kind() == MetricKind::identity || A.kind() == MetricKind::diagonal;
-  if (is_diagonal || A.dimension() > many) return A.diagonal().cwiseSqrt().cwiseInverse();
+  if (is_diagonal(A) || A.dimension() > many) return A.diagonal().cwiseSqrt().cwiseInverse();
   Matrix units = Matrix::Identity(A.dimension(), A.dimension());
   A.whiten_in_place(units);
   return units.colwise().norm();
 }
 
 Vector longest_within(const ConstraintRows& U, const Metric& A) {
-  if (A.kind() == MetricKind::identity || A.kind() == MetricKind::diagonal)
-    return U.lengths(A.diagonal().cwiseInverse());
+  if (is_diagonal(A)) return U.lengths(A.diagonal().cwiseInverse());
   const Vector unit = unit_lengths(A);
   Vector longest(U.count());
   for (Index a = 0; a < U.count(); ++a) longest[a] = U.absolute_dot(a, unit);
@@ -87,6 +92,13 @@ void validate(const NearestPointProblem& problem) {
       throw InvalidInput("two_sided: row " + std::to_string(a) +
                          " out of order or twice; list each row once");
   }
+}
+
+void validate_guess(const NearestPointProblem& problem, const std::vector<Index>& guess) {
+  for (const Index a : guess)
+    if (a < 0 || a >= problem.rows())
+      throw InvalidInput("guess: no row " + std::to_string(a) + "; rows run from 0 to " +
+                         std::to_string(problem.rows() - 1));
 }
 
 }  // namespace convex

@@ -23,7 +23,15 @@ std::optional<DataRadii> select(const std::optional<DataRadii>&, const std::vect
 /// By index below `count`, whether it is among those chosen.
 std::vector<bool> marked(Index count, const std::vector<Index>& chosen);
 
+/// 0 … count - 1.
+std::vector<Index> indices_below(Index count);
+
 struct NearestPointProblem;
+
+/// Whether A couples no coordinates.
+inline bool is_diagonal(const Metric& A) {
+  return A.kind() == MetricKind::identity || A.kind() == MetricKind::diagonal;
+}
 
 /// ||e_i||_(A⁻¹) of each coordinate: n. Where A is full and has many, 1 / sqrt(A_ii), which is no more.
 Vector unit_lengths(const Metric& A);
@@ -51,5 +59,9 @@ struct NearestPointProblem {
 
 /// Throws InvalidInput when sizes do not fit, an entry is not finite, or `two_sided` names no row.
 void validate(const NearestPointProblem&);
+
+/// Throws InvalidInput when a guess of active rows names a row that is not there. Their order, and rows named
+/// twice, do not matter.
+void validate_guess(const NearestPointProblem&, const std::vector<Index>& guess);
 
 }  // namespace convex

@@ -1,12 +1,10 @@
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 
-#include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/guess.hpp"
-
 #include <cmath>
 #include <limits>
 
 #include "convex/infinity.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/reductions/islands.hpp"
@@ -131,13 +130,11 @@ std::optional<std::vector<Dependence>> dependences(const NearestPointProblem& pr
     if (own_basis.size() == names.size()) continue;
     if (!is_small_enough(static_cast<Index>(islands.coordinates[i].size()), names.size()))
       return std::nullopt;
-    std::vector<Index> all(names.size());
-    std::iota(all.begin(), all.end(), Index{0});
     const bool is_whole = islands.rows[i].size() == tight.size() && islands.coordinates.size() == 1;
     Dependence found = is_whole
                            ? dependence(problem, basis, tight)
                            : dependence(island_problem(held, islands.coordinates[i], islands.rows[i], place),
-                                        own_basis, all);
+                                        own_basis, indices_below(static_cast<Index>(names.size())));
     if (!is_whole) {
       rename(found.basic, names);
       rename(found.dependent, names);

@@ -68,10 +68,7 @@ std::vector<int> pool_members(Index n, Pool<Sum>* const bottom, const Member mem
 }  // namespace
 
 std::optional<InOrder> in_order(const NearestPointProblem& problem) {
-  const MetricKind kind = problem.A.kind();
-  if ((kind != MetricKind::diagonal && kind != MetricKind::identity) || !problem.U.is_sparse() ||
-      !problem.two_sided.empty())
-    return std::nullopt;
+  if (!is_diagonal(problem.A) || !problem.U.is_sparse() || !problem.two_sided.empty()) return std::nullopt;
   const SparseRows& U = problem.U.sparse();
   const Index n = problem.dimension(), m = problem.rows();
   if (n == 0 || !U.isCompressed() || (m != n && m != n - 1)) return std::nullopt;

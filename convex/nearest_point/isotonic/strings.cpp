@@ -89,11 +89,9 @@ Strings string_in_order(const SparseRows& U, Index n) {
 }  // namespace
 
 Strings find_strings(const NearestPointProblem& problem, Index most_border) {
-  const MetricKind kind = problem.A.kind();
   const Index n = problem.dimension();
   const Strings none{{}, {}, {0}, {}};
-  if ((kind != MetricKind::diagonal && kind != MetricKind::identity) || !problem.U.is_sparse() || n == 0)
-    return none;
+  if (!is_diagonal(problem.A) || !problem.U.is_sparse() || n == 0) return none;
   const SparseRows& U = problem.U.sparse();
   if (problem.two_sided.empty())
     if (Strings in_order = string_in_order(U, n); in_order.count() == 1) return in_order;

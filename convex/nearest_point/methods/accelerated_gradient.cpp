@@ -23,10 +23,7 @@ constexpr double margin = 1.05;
 class Whitening {
  public:
   explicit Whitening(const NearestPointProblem& problem) : problem_(problem), dense_(is_dense_size(problem)) {
-    if (!dense_) return;
-    std::vector<Index> rows;
-    for (Index a = 0; a < problem.rows(); ++a) rows.push_back(a);
-    V_ = whitened_rows(problem, rows);
+    if (dense_) V_ = whitened_rows(problem, indices_below(problem.rows()));
   }
   Vector times(const Vector& y) const {
     return dense_ ? Vector(V_ * y) : problem_.A.whiten(problem_.U.transpose_times(y));

@@ -28,8 +28,7 @@ Solution admm(const NearestPointProblem& problem, const Accuracy& accuracy) {
   const NearestPointProblem& within = scaled.problem;
   const Index k = within.rows();
   RegularisedKkt kkt(within);
-  std::vector<Index> rows;
-  for (Index a = 0; a < k; ++a) rows.push_back(a);
+  const std::vector<Index> rows = indices_below(k);
   double rho = 1;
   kkt.factor(rows, Vector::Constant(k, 1 / rho));
   // U q = s + w, w >= 0; y are the multipliers. q and nu: the solution of the system.

@@ -1,7 +1,5 @@
 #include "convex/nearest_point/methods/every_method.hpp"
 
-#include <numeric>
-
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 
@@ -34,8 +32,7 @@ Held hold(const NearestPointProblem& problem, const std::vector<Index>& rows) {
 
 Solution drop_negative(const NearestPointProblem& problem, const Accuracy& accuracy) {
   if (const auto found = without_a_method(problem, "drop-negative", accuracy)) return *found;
-  std::vector<Index> rows(at(problem.rows()));
-  std::iota(rows.begin(), rows.end(), Index{0});
+  const std::vector<Index> rows = indices_below(problem.rows());
   const Held first = hold(problem, rows);
   const Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
   const double least = -noise * first.lambda.cwiseProduct(length).cwiseAbs().maxCoeff();

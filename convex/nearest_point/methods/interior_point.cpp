@@ -24,9 +24,11 @@ constexpr Index most_steps = 120;
 class InteriorPoint {
  public:
   explicit InteriorPoint(const ScaledProblem& scaled)
-      : problem_(scaled.problem), step_(scaled.two_sided), kkt_(problem_) {
+      : problem_(scaled.problem),
+        step_(scaled.two_sided),
+        kkt_(problem_),
+        rows_(indices_below(problem_.rows())) {
     const Index m = problem_.rows();
-    for (Index a = 0; a < m; ++a) rows_.push_back(a);
     at_.q = problem_.A.solve(problem_.z);
     at_.lambda = Vector::Zero(m);
     at_.slack = problem_.U.times(at_.q) - problem_.s;
@@ -88,7 +90,7 @@ class InteriorPoint {
   const NearestPointProblem& problem_;
   MehrotraStep step_;
   RegularisedKkt kkt_;
-  std::vector<Index> rows_;
+  const std::vector<Index> rows_;
   InteriorPointState at_;
 };
 

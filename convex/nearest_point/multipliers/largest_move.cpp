@@ -122,7 +122,7 @@ LargestMove largest_move(const NearestPointProblem& problem, const std::vector<I
 
 double largest_move(const Metric& A, const Vector& balance) {
   if (!balance.allFinite()) return infinity;
-  if (A.kind() == MetricKind::diagonal || A.kind() == MetricKind::identity) return A.dual_norm(balance);
+  if (is_diagonal(A)) return A.dual_norm(balance);
   double largest = 0;
   const auto pushes = starts(balance);
   for (std::size_t start = 0; start < pushes.size(); ++start) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
@@ -21,8 +20,6 @@ bool least_norm_in_fractions(const Dependence& rows, const std::vector<Index>& n
   RowMatrix U = RowMatrix::Zero(k, k + d);
   U.leftCols(k).setIdentity();
   U.rightCols(d) = rows.T;
-  std::vector<Index> two_sided(at(k));
-  std::iota(two_sided.begin(), two_sided.end(), Index{0});
   Vector s = U * start;
   for (Index j = 0; j < k + d; ++j) {
     if (is_free[at(names[static_cast<std::size_t>(j)])]) continue;
@@ -32,7 +29,7 @@ bool least_norm_in_fractions(const Dependence& rows, const std::vector<Index>& n
     s[U.rows() - 1] = 0;
   }
   const NearestPointProblem problem{Metric::identity(k + d), Vector::Zero(k + d),
-                                    ConstraintRows(std::move(U)), std::move(s), std::move(two_sided)};
+                                    ConstraintRows(std::move(U)), std::move(s), indices_below(k)};
   const Solution solution = exact_method(problem, {});
   if (solution.status != Status::solved && solution.status != Status::inaccurate) return false;
   for (Index j = 0; j < k + d; ++j) lambda[names[at(j)]] = solution.q[j];
@@ -127,9 +124,8 @@ bool put_missing_reaction_on_basis(const NearestPointProblem& problem, const Vec
   std::vector<Index> basic;
   for (const Dependence& rows : groups) basic.insert(basic.end(), rows.basic.begin(), rows.basic.end());
   const auto k = static_cast<Index>(basic.size());
-  NearestPointProblem held{problem.A, problem.U.transpose_times(lambda) - reaction, problem.U.select(basic),
-                           Vector::Zero(k), std::vector<Index>(basic.size())};
-  std::iota(held.two_sided.begin(), held.two_sided.end(), Index{0});
+  const NearestPointProblem held{problem.A, problem.U.transpose_times(lambda) - reaction,
+                                 problem.U.select(basic), Vector::Zero(k), indices_below(k)};
   const Solution pushed = active_set(held, {.limit = 0});
   if (pushed.lambda.size() != k) return false;
   lambda(basic) += pushed.lambda;

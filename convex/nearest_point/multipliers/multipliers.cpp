@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
@@ -16,6 +15,7 @@
 #include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
+#include "convex/nearest_point/reductions/left_out.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline multiplier_sets {
@@ -45,8 +45,7 @@ class MultiplierPolyhedron {
                                         const std::vector<bool>& is_free, std::vector<Index>& names) {
     const std::size_t k = rows.basic.size();
     names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
-    std::vector<Index> places(names.size());
-    std::iota(places.begin(), places.end(), Index{0});
+    const std::vector<Index> places = indices_below(static_cast<Index>(names.size()));
     std::vector<bool> free;
     for (Index a : names) free.push_back(is_free[at(a)]);
     const auto end_of_basic = places.begin() + static_cast<std::ptrdiff_t>(k);
@@ -82,12 +81,10 @@ Vector signs_of(const Vector& lambda, const Vector& length, const Vector& roundi
 /// the slack of row a. At most `length`.
 double length_beside_held_rows(const NearestPointProblem& problem, const Solution& solution, Index a,
                                double length) {
-  std::vector<Index> rows = solution.basis;
-  NearestPointProblem beside{
-      problem.A, problem.U.row(a), problem.U.select(rows), Vector::Zero(static_cast<Index>(rows.size())), {}};
-  beside.two_sided.resize(rows.size());
-  std::iota(beside.two_sided.begin(), beside.two_sided.end(), Index{0});
-  if (rows.empty() || !is_dense_size(beside)) return length;
+  const auto count = static_cast<Index>(solution.basis.size());
+  const NearestPointProblem beside{problem.A, problem.U.row(a), problem.U.select(solution.basis),
+                                   Vector::Zero(count), indices_below(count)};
+  if (count == 0 || !is_dense_size(beside)) return length;
   const Solution found = active_set(beside, {});
   if (found.status != Status::solved) return length;
   return std::min(length, found.acceleration_norm + found.error_bound);
@@ -153,11 +150,7 @@ bool is_no_vertex(const std::vector<Dependence>& groups, const Vector& lambda) {
 /// The same answer with the multipliers of a vertex of the dual optima: q is the nearest point of the tight
 /// rows alone, too. The answer as it is where they do not give it.
 Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>& tight, Solution solution) {
-  NearestPointProblem held{problem.A, problem.z, problem.U.select(tight), problem.s(tight), {}};
-  const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
-  for (std::size_t k = 0; k < tight.size(); ++k)
-    if (is_free[at(tight[k])]) held.two_sided.push_back(static_cast<Index>(k));
-  held.radii = select(problem.radii, tight);
+  const NearestPointProblem held = with_rows(problem, tight);
   if (!is_dense_size(held)) return solution;
   const Solution vertex = active_set(held, {});
   if (vertex.status != Status::solved ||

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/isotonic/peeling.hpp"
@@ -40,16 +39,16 @@ bool sparse_rows_are_independent(const NearestPointProblem& problem, const std::
 bool can_open(const NearestPointProblem& problem, const std::vector<Index>& held,
               const std::vector<Index>& opening) {
   if (opening.empty()) return true;
-  std::vector<Index> rows = held, equations(held.size());
+  std::vector<Index> rows = held;
   rows.insert(rows.end(), opening.begin(), opening.end());
-  std::iota(equations.begin(), equations.end(), Index{0});
   Vector s = Vector::Zero(static_cast<Index>(rows.size()));
   s.tail(static_cast<Index>(opening.size())) = dual_lengths(problem, opening)(opening);
   std::optional<DataRadii> radii = select(problem.radii, rows);
   if (radii) radii->s.setZero();
-  const Solution found = automatic({problem.A, Vector::Zero(problem.dimension()), problem.U.select(rows),
-                                    std::move(s), std::move(equations), std::move(radii)},
-                                   {});
+  const Solution found =
+      automatic({problem.A, Vector::Zero(problem.dimension()), problem.U.select(rows), std::move(s),
+                 indices_below(static_cast<Index>(held.size())), std::move(radii)},
+                {});
   return found.status == Status::solved || found.status == Status::inaccurate;
 }
 
@@ -75,10 +74,8 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   }
   SparseRows U(m, k);
   U.setFromTriplets(entries.begin(), entries.end());
-  std::vector<Index> equations(at(n));
-  std::iota(equations.begin(), equations.end(), Index{0});
   const Solution found =
-      sparse_active_set({Metric::identity(k), -start, ConstraintRows(std::move(U)), s, std::move(equations)});
+      sparse_active_set({Metric::identity(k), -start, ConstraintRows(std::move(U)), s, indices_below(n)});
   if (found.status != Status::solved) return false;
   const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
   for (Index j = 0; j < k; ++j) {

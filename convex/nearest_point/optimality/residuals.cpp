@@ -23,8 +23,7 @@ double length_at_any_scale(const ConstraintRows& U, Index a, const Vector& d) {
 
 Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   Vector length = Vector::Zero(problem.rows());
-  const MetricKind kind = problem.A.kind();
-  if (problem.U.is_sparse() && (kind == MetricKind::diagonal || kind == MetricKind::identity)) {
+  if (problem.U.is_sparse() && is_diagonal(problem.A)) {
     const Vector all = problem.U.lengths(problem.A.diagonal().cwiseInverse());
     for (Index a : rows)
       length[a] = has_squares(all[a]) ? all[a] : length_at_any_scale(problem.U, a, problem.A.diagonal());
@@ -33,7 +32,7 @@ Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>
   // With a sparse factor a length is a solve: beyond `many` a lower bound stands for it, (u·v)/||v||_A for v
   // = D⁻¹u, which makes residuals larger.
   constexpr std::size_t many = 2000;
-  if (problem.U.is_sparse() && kind == MetricKind::sparse && rows.size() > many) {
+  if (problem.U.is_sparse() && problem.A.kind() == MetricKind::sparse && rows.size() > many) {
     const Vector inverse = problem.A.diagonal().cwiseInverse();
     Vector v = Vector::Zero(problem.dimension());
     for (Index a : rows) {
@@ -93,7 +92,8 @@ double bound_by_gap(const NearestPointProblem& problem, const Solution& answer) 
 }
 
 double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
-  return std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(lo.cwiseAbs2()));
+  const double parts = is_diagonal(problem.A) ? 1 : static_cast<double>(problem.dimension());
+  return std::sqrt(parts * problem.A.diagonal().dot(lo.cwiseAbs2()));
 }
 
 Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
@@ -107,8 +107,7 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
 }
 
 Residuals residuals(const NearestPointProblem& problem, const Solution& answer, KnownParts known) {
-  const bool plain = problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
-  if (plain && problem.U.is_sparse()) return sparse_residuals(problem, answer);
+  if (is_diagonal(problem.A) && problem.U.is_sparse()) return sparse_residuals(problem, answer);
   const Vector &q = answer.q, &lambda = answer.lambda;
   Vector& length = known.length;
   if (length.size() == 0) length = Vector::Zero(problem.rows());

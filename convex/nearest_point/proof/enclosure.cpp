@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
@@ -124,8 +123,6 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
       rows.push_back(problem.two_sided[at(factor.order[static_cast<std::size_t>(r)])]);
   }
   const std::size_t two_sided = rows.size();
-  std::vector<Index> free(two_sided);
-  std::iota(free.begin(), free.end(), Index{0});
   constexpr double tight = 1e-9;
   const Vector slack = problem.U.times(solution.q) - problem.s;
   for (Index a = 0; a < problem.rows(); ++a)
@@ -134,7 +131,8 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
         !problem.is_two_sided(a))
       rows.push_back(a);
   const Vector residual = problem.A.multiply(solution.q) - problem.z;
-  const ConeProjection push = cone_projection(whitened_rows(problem, rows), problem.A.whiten(residual), free);
+  const ConeProjection push = cone_projection(whitened_rows(problem, rows), problem.A.whiten(residual),
+                                              indices_below(static_cast<Index>(two_sided)));
   if (!push.finished) return std::nullopt;
   Held held{{}, Vector::Zero(problem.rows())};
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -162,9 +160,7 @@ bool drop_idle_rows(const NearestPointProblem& problem, const HeldPoint& point, 
 
 /// Whether dense matrices of X and of so many rows may be made.
 bool is_dense_size(const NearestPointProblem& problem, std::size_t rows) {
-  const bool is_diagonal =
-      problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
-  return (problem.dimension() <= largest_dimension || is_diagonal) &&
+  return (problem.dimension() <= largest_dimension || is_diagonal(problem.A)) &&
          static_cast<Index>(rows) * problem.dimension() <= most_active_entries;
 }
 

@@ -25,7 +25,7 @@ Vector RadiiOf::rows_transposed_times(const std::vector<Index>& rows, const Vect
 std::optional<Preconditioned> preconditioned(const Metric& metric, const RadiiOf& radii) {
   const Index n = metric.dimension();
   Preconditioned P;
-  P.is_diagonal = metric.kind() == MetricKind::diagonal || metric.kind() == MetricKind::identity;
+  P.is_diagonal = is_diagonal(metric);
   if (P.is_diagonal) {
     P.a = metric.diagonal();
     if (!is_ordinary(P.a)) return std::nullopt;

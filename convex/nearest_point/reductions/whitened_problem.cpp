@@ -1,14 +1,12 @@
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
-#include <cmath>
+#include "convex/nearest_point/active_set/working_set.hpp"
 
 namespace convex::inline reductions {
 
 WhitenedProblem::WhitenedProblem(const NearestPointProblem& problem) {
   const Index n = problem.dimension(), m = problem.rows();
-  Matrix all(n, m);
-  for (Index a = 0; a < m; ++a) problem.U.copy_row(a, all.col(a));
-  problem.A.whiten_in_place(all);
+  const Matrix all = whitened_rows(problem, indices_below(m));
   const Vector lengths = all.colwise().norm(), w_free = problem.A.whiten(problem.z);
   const std::vector<bool> two_sided = marked(m, problem.two_sided);
   for (Index a = 0; a < m; ++a)

@@ -22,9 +22,7 @@ struct RegularisedKkt::Sparse {
 RegularisedKkt::RegularisedKkt(const NearestPointProblem& problem) : problem_(problem) {
   if (is_dense_size(problem)) {
     dense_ = std::make_unique<Dense>();
-    std::vector<Index> rows(static_cast<std::size_t>(problem.rows()));
-    for (std::size_t a = 0; a < rows.size(); ++a) rows[a] = static_cast<Index>(a);
-    dense_->all = whitened_rows(problem, rows);
+    dense_->all = whitened_rows(problem, indices_below(problem.rows()));
     return;
   }
   sparse_ = std::make_unique<Sparse>();
