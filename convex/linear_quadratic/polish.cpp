@@ -96,8 +96,7 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
                      const NearestPointProblem& round, const std::vector<Index>& rows, const Vector& start,
                      const Vector& multipliers, double scale) {
   Set set(round);
-  Matrix whitened = whitened_rows(round, rows);
-  set.append_block(rows, whitened, 0);
+  set.append_block(rows, 0);
   const Index held = set.size();
   PolishedPoint found;
   if (held != static_cast<Index>(rows.size())) return found;

@@ -36,13 +36,34 @@ class DualActiveSet {
         passed_(two_sided_.size(), false) {}
 
   Solution run(const std::vector<Index>& guess) {
-    if (!hold_two_sided()) return infeasible_answer(problem_, farkas_, set_.scale(), steps_, accuracy_);
+    if (!hold_two_sided()) return infeasible();
     start(guess);
-    const Index limit =
-        accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
+    return settle(
+        accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension()),
+        most_rounds + problem_.rows());
+  }
+
+  Solution run_near(const std::vector<Index>& rows, const Vector& lambda, Index most_changes) {
+    if (!hold_two_sided()) return infeasible();
+    for (Index p : rows) take_in_with_multiplier(set_, p, lambda[p], split_);
+    const Index most = steps_ + most_changes;
+    finish_change();
+    return settle(steps_, most + 1 - steps_);
+  }
+
+ private:
+  enum class Outcome { unchanged, changed, infeasible };
+
+  Solution infeasible() const {
+    return infeasible_answer(problem_, farkas_, set_.scale(), steps_, accuracy_);
+  }
+
+  /// Goes on until nothing is wrong after a refinement. limit: of steps up to which doubles go on by
+  /// themselves; rounds: of refinements, each with a change.
+  Solution settle(Index limit, Index rounds) {
     RefinedPoint refined;
-    for (Index round = 0; round < most_rounds + problem_.rows(); ++round) {
-      if (!descend(limit)) return infeasible_answer(problem_, farkas_, set_.scale(), steps_, accuracy_);
+    for (Index round = 0; round < rounds; ++round) {
+      if (!descend(limit)) return infeasible();
       refined = refine(set_);
       // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
       if (refined.contraction < 1)
@@ -50,16 +71,12 @@ class DualActiveSet {
       if (!(refined.contraction < 1)) return answer(refined, false);
       if (drop_negative(refined)) continue;
       const Outcome outcome = admit_violated(refined);
-      if (outcome == Outcome::infeasible)
-        return infeasible_answer(problem_, farkas_, set_.scale(), steps_, accuracy_);
+      if (outcome == Outcome::infeasible) return infeasible();
       if (outcome == Outcome::unchanged && !let_weak_go(refined)) return answer(refined, true);
     }
     set_.solve();
     return answer(refine(set_), false);
   }
-
- private:
-  enum class Outcome { unchanged, changed, infeasible };
 
   /// Judges what rounding may have done to w (`w_noise_`): the sums of its terms, and R⁻ᵀs, which the
   /// condition of S amplifies; and what a refinement has seen, which has the condition of A in it.
@@ -75,12 +92,10 @@ class DualActiveSet {
 
   /// False when the two-sided rows contradict each other.
   bool hold_two_sided() {
-    Matrix whitened = whitened_rows(problem_, problem_.two_sided);
-    set_.append_block(problem_.two_sided, whitened, block_dependence);
+    set_.append_block(problem_.two_sided, block_dependence);
     bool is_solved = false;  // what rounding makes of a gap is relative to the motion that the rows ask for
     for (Index p : problem_.two_sided) {
       if (set_.holds(p)) continue;
-      if (passed_[at(p)]) continue;
       set_.split(p, split_);
       if (split_.rho > 0) {
         set_.append(p, split_, 0);
@@ -104,14 +119,7 @@ class DualActiveSet {
     while (true) {
       set_.solve();
       judge_noise();
-      Index worst = -1;
-      double lowest = 0;
-      for (Index k = 0; k < set_.size(); ++k) {
-        const double push = set_.lambda()[k] * set_.factor().length(k);
-        if (!set_.one_sided(k) || !(push < std::min(lowest, -multiplier_noise()))) continue;
-        lowest = push;
-        worst = k;
-      }
+      const Index worst = most_negative(set_, set_.lambda(), multiplier_noise());
       if (worst < 0) break;
       set_.remove(worst);
       ++steps_;
@@ -146,8 +154,7 @@ class DualActiveSet {
 
   /// Tries the hypothesis that all degenerate rows hold; true when their multipliers allow it.
   bool start_by_degenerate_rows(const std::vector<Index>& rows) {
-    Matrix whitened = whitened_rows(problem_, rows);
-    set_.append_block(rows, whitened, block_dependence);
+    set_.append_block(rows, block_dependence);
     set_.solve();
     judge_noise();
     steps_ += static_cast<Index>(rows.size());
@@ -175,8 +182,7 @@ class DualActiveSet {
       rows.clear();
     }
     std::erase_if(rows, [&](Index a) { return two_sided_[at(a)]; });
-    Matrix whitened = whitened_rows(problem_, rows);
-    set_.append_block(rows, whitened, block_dependence);
+    set_.append_block(rows, block_dependence);
     steps_ += static_cast<Index>(rows.size());
     drop_until_dual_feasible();
   }
@@ -268,8 +274,7 @@ class DualActiveSet {
     if (worst < 0) return false;
     set_.remove(worst);
     ++steps_;
-    finish_change();
-    return true;
+    return finish_change() == Outcome::changed;
   }
 
   /// Lets rows with multipliers that are 0 for all that S's condition tells go, once: their slacks say more.
@@ -311,7 +316,7 @@ class DualActiveSet {
   }
 
   const NearestPointProblem& problem_;
-  const Accuracy& accuracy_;
+  const Accuracy accuracy_;
   WorkingSet set_;
   Vector row_scale_;  // ||u_a||_(D⁻¹), D the diagonal of A: a length that costs n instead of n²
   std::vector<bool> two_sided_, passed_;
@@ -324,6 +329,11 @@ class DualActiveSet {
 };
 
 }  // namespace
+
+Solution active_set_near(const NearestPointProblem& problem, const std::vector<Index>& rows,
+                         const Vector& lambda, Index most_changes) {
+  return DualActiveSet(problem, {.limit = 0}).run_near(rows, lambda, most_changes);
+}
 
 Solution active_set_of_valid(const NearestPointProblem& problem, const Accuracy& accuracy,
                              const std::vector<Index>& guess) {

@@ -20,4 +20,10 @@ Solution active_set(const NearestPointProblem&, const Accuracy& = {}, const std:
 /// The same for a problem and a guess that have been checked.
 Solution active_set_of_valid(const NearestPointProblem&, const Accuracy&, const std::vector<Index>& guess);
 
+/// From rows that a method shows to be active, with its multipliers, the most loaded first: the solution,
+/// where it takes no more than so many changes of the working set to come to it; else without a finite bound.
+/// What doubles leave open is said, and not decided.
+Solution active_set_near(const NearestPointProblem&, const std::vector<Index>& rows, const Vector& lambda,
+                         Index most_changes);
+
 }  // namespace convex::inline dual_active_set

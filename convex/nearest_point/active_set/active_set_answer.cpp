@@ -63,7 +63,7 @@ Solution certified_answer(const WorkingSet& set, const RefinedPoint& refined, co
   solution.residuals =
       residuals(problem, solution, {.length = std::move(length), .magnitude = row_scale * diagonal_norm});
 
-  solution.rounding = rounding_norm(problem, refined.q.lo);
+  solution.rounding = problem.A.norm(refined.q.lo);
   double multipliers = 0,
          taken_for_zero = 0;  // multipliers that rounding made negative: q solves another problem
   for (Index k = 0; k < set.size(); ++k) {

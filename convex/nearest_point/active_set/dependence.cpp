@@ -25,8 +25,7 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
                       const std::vector<Index>& tight) {
   using Set = WorkingSet;
   Set set(problem);
-  Matrix whitened = whitened_rows(problem, basis);
-  set.append_block(basis, whitened, 0);
+  set.append_block(basis, 0);
   Dependence found;
   Set::Split split;
   struct Told {
@@ -149,8 +148,7 @@ double inverse_norm_of_rows(const NearestPointProblem& problem, const std::vecto
   const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(rows.size());
   if (n * (n + k * k) > quick_work) return 1;
   WorkingSet set(problem);
-  Matrix whitened = whitened_rows(problem, rows);
-  set.append_block(rows, whitened, 0);
+  set.append_block(rows, 0);
   return std::max(1.0, set.factor().inverse_norm());
 }
 

@@ -74,6 +74,17 @@ BlockingRow blocking_row(const WorkingSet& set, const WorkingSet::Split& split, 
   return first;
 }
 
+void take_in_with_multiplier(WorkingSet& set, Index p, double multiplier, WorkingSet::Split& split) {
+  for (set.split(p, split); !(split.rho > 0); set.split(p, split)) {
+    const auto [blocking, step] = blocking_row(set, split, -1, multiplier);
+    set.lambda().head(set.size()) += step * split.coefficients.head(set.size());
+    multiplier -= step;
+    if (blocking < 0) return;
+    set.remove(blocking);
+  }
+  set.append(p, split, multiplier);
+}
+
 bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split) {
   const double nothing = exact_dependence * split.magnitude;
   if (split.rest > nothing) return false;

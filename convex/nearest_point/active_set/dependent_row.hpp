@@ -19,6 +19,10 @@ struct BlockingRow {
 BlockingRow blocking_row(const WorkingSet& set, const WorkingSet::Split& split, double sign = 1,
                          double most = infinity);
 
+/// Takes row p in with its multiplier; while it depends on S, the multiplier moves over to S, from which the
+/// row that comes to 0 first is dropped (Carathéodory 1911). split: room for that of the row.
+void take_in_with_multiplier(WorkingSet& set, Index p, double multiplier, WorkingSet::Split& split);
+
 /// For a row p that depends on S: s_p - Σ r_k s_k, by which it contradicts S, when that exceeds rounding and
 /// what some motion up to `farthest_motion` times the scale makes of the radii; else 0.
 double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& split);

@@ -96,18 +96,20 @@ RefinedPoint refine(const WorkingSet& set) {
   return point;
 }
 
-Index most_negative(const WorkingSet& set, const RefinedPoint& refined) {
-  const double noise =
-      4 * refined.remaining() * set.factor().inverse_norm();  // of a multiplier times its length
+Index most_negative(const WorkingSet& set, const Vector& lambda, double noise) {
   Index worst = -1;
-  double lowest = 0;
+  double lowest = std::min(0.0, -noise);
   for (Index k = 0; k < set.size(); ++k) {
-    const double push = refined.lambda.hi[k] * set.factor().length(k);
-    if (!set.one_sided(k) || !(push < -noise) || !(push < lowest)) continue;
+    const double push = lambda[k] * set.factor().length(k);
+    if (!set.one_sided(k) || !(push < lowest)) continue;
     lowest = push;
     worst = k;
   }
   return worst;
+}
+
+Index most_negative(const WorkingSet& set, const RefinedPoint& refined) {
+  return most_negative(set, refined.lambda.hi, 4 * refined.remaining() * set.factor().inverse_norm());
 }
 
 }  // namespace convex::inline dual_active_set

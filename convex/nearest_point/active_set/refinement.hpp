@@ -78,8 +78,10 @@ struct RefinedPoint {
 /// preconditioner, so the error shrinks by about (condition of S) u each time.
 RefinedPoint refine(const WorkingSet& set);
 
-/// The place in S of the one-sided row whose refined multiplier, times its length, is most negative, beyond
-/// what may be missing in it; -1 for none.
+/// The place in S of the one-sided row whose multiplier, times its length, is most negative, below -noise; -1
+/// for none. lambda: over S.
+Index most_negative(const WorkingSet& set, const Vector& lambda, double noise);
+/// The same of a refined one, beyond what may be missing in it.
 Index most_negative(const WorkingSet& set, const RefinedPoint& refined);
 
 }  // namespace convex::inline dual_active_set

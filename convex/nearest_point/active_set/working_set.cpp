@@ -116,7 +116,8 @@ void WorkingSet::remove(Index k) {
   }
 }
 
-void WorkingSet::append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened, double threshold) {
+void WorkingSet::append_block(const std::vector<Index>& rows, double threshold) {
+  Matrix whitened = whitened_rows(problem_, rows);
   factor_.append_block(whitened, threshold, [&](Index k) { take(rows[at(k)]); });
 }
 

@@ -63,9 +63,9 @@ class WorkingSet {
 
   void append(Index p, const Split&, double multiplier);
   void remove(Index k);
-  /// Takes in those of the rows, given with their F⁻¹u_a as columns (overwritten), that are independent of
-  /// the others to the relative threshold; w and the multipliers are not touched.
-  void append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened, double threshold);
+  /// Takes in those of the rows that are independent of the others to the relative threshold; w and the
+  /// multipliers are not touched.
+  void append_block(const std::vector<Index>& rows, double threshold);
   /// Sets w and lambda to the point where every row of S holds with equality.
   void solve();
   /// Solves A dq - U_Sᵀ dlambda = r1, U_S dq = r2, given g = F⁻¹r1; returns dw = Fᵀdq.

@@ -1,18 +1,19 @@
 #include "convex/nearest_point/methods/crossover.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/infinity.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/contradiction_within_radii.hpp"
-#include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
-#include "convex/nearest_point/methods/crossover_rows.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/optimality/farkas_circuit.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/sparse/sparse_active_set.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline algorithms {
@@ -21,21 +22,6 @@ namespace {
 /// Rows that may change while the active rows are held: those whose sign a converged iteration leaves open,
 /// many where multipliers and slacks are both small.
 Index most_changes(Index held) { return std::min<Index>(32, 2 + held / 2); }
-
-/// Weights of two-sided rows that contradict each other.
-std::optional<Vector> contradictory_two_sided_rows(const NearestPointProblem& problem) {
-  if (problem.two_sided.empty() || !is_dense_size(problem)) return std::nullopt;
-  WorkingSet set(problem);
-  WorkingSet::Split split;
-  for (Index p : problem.two_sided) {
-    set.split(p, split);
-    if (split.rho > 0)
-      set.append(p, split, 0);
-    else if (const double gap = contradiction(set, p, split); std::abs(gap) > 0)
-      return contradiction_weights(set, p, split, gap > 0 ? 1 : -1);
-  }
-  return std::nullopt;
-}
 
 class Crossover {
  public:
@@ -56,46 +42,26 @@ class Crossover {
       q = problem_.A.solve(problem_.z);
       lambda = Vector::Zero(problem_.rows());
     }
-    Solution raw = measured(q, lambda, problem_.U.times(q) - problem_.s);
-    const Index loaded = (lambda.array() != 0).count();
-    const Holding holding = is_dense_size(problem_)
-                                ? hold_active_rows(problem_, q, lambda, row_scale_, most_changes(loaded))
-                                : hold_active_rows_sparse(problem_, q, lambda, row_scale_);
-    if (std::optional<Solution> proved = infeasible(holding.farkas); proved && candidate_.may_polish)
+    Solution raw = measured(q, lambda), held = active_rows_held(raw);
+    if (std::optional<Solution> proved = infeasible(held.farkas); proved && candidate_.may_polish)
       return *proved;
-    if (!holding.held) {
+    if (held.q.size() == 0 || held.undecided == open_question::conditioning) {
       raw.error_bound = bound_of_gap(q, lambda);
       return with_status(raw);
     }
-    const HeldRows& held = *holding.held;
-    if (!held.undecided.empty()) return decided(held, std::move(raw));
-    const double error_of_held = bound_of_held(held);
-    raw.error_bound = error_of_held + problem_.A.norm((q - held.q.hi) - held.q.lo);
-    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
-    Solution polished = measured(held.q.hi, signed_right(held.lambda), held.slack);
-    polished.rounding = rounding_norm(problem_, held.q.lo);
-    polished.error_bound = error_of_held + polished.rounding;
-    if (is_dense_size(problem_)) polished.basis = held.rows;  // else they may depend on each other
-    polished.polished = true;
-    return with_status(polished.error_bound <= raw.error_bound ? polished : raw);
-  }
-
-  /// The verdict where doubles leave open what becomes of rows that the point of the working set touches.
-  Solution decided(const HeldRows& held, Solution raw) const {
-    Solution open = measured(held.q.hi, signed_right(held.lambda), held.slack);
-    open.basis = held.rows;
-    open.undecided = held.undecided;
-    Solution exact = decided_in_fractions(problem_, std::move(open), accuracy_);
-    if (exact.status == Status::infeasible) return exact;
-    if (!exact.undecided.empty()) {
-      raw.undecided = exact.undecided;
+    if (problem_.radii)
+      held.undecided = {};  // rows within them are what they are counted as
+    else
+      held = decided_in_fractions(problem_, std::move(held), accuracy_);
+    if (held.status == Status::infeasible) return held;
+    if (!held.undecided.empty()) {
+      raw.undecided = held.undecided;
       raw.error_bound = infinity;
       return with_status(raw);
     }
-    raw.error_bound = problem_.A.norm(raw.q - exact.q) + exact.rounding;
-    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
-    exact.polished = true;
-    return exact.error_bound <= raw.error_bound ? exact : with_status(raw);
+    raw.error_bound = held.error_bound + problem_.A.norm(q - held.q);
+    held.polished = q != held.q;
+    return with_status(candidate_.may_polish && accuracy_.polish && held.polished ? held : raw);
   }
 
   std::optional<Solution> infeasible(const Vector& weights) {
@@ -138,7 +104,25 @@ class Crossover {
     return clipped;
   }
 
-  Solution measured(const Vector& q, const Vector& lambda, const Vector& slack) const {
+  /// The point of the rows that look active, the most loaded first, as the active set finds it from there.
+  Solution active_rows_held(const Solution& raw) const {
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (!two_sided_[at(a)] && row_scale_[a] > 0 && raw.lambda[a] > 0 &&
+          raw.lambda[a] * row_scale_[a] > raw.slack[a] / row_scale_[a])
+        rows.push_back(a);
+    const Vector load = raw.lambda.cwiseProduct(row_scale_);
+    std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return load[a] > load[b]; });
+    Solution held = is_dense_size(problem_) ? active_set_near(problem_, rows, raw.lambda,
+                                                              most_changes((raw.lambda.array() != 0).count()))
+                                            : sparse_active_set_near(problem_, raw.q, rows, raw.lambda);
+    held.method = candidate_.method;
+    held.steps = candidate_.steps;
+    held.model = {};
+    return held;
+  }
+
+  Solution measured(const Vector& q, const Vector& lambda) const {
     Solution solution;
     solution.method = candidate_.method;
     solution.steps = candidate_.steps;
@@ -150,7 +134,6 @@ class Crossover {
     // Exact lengths cost a solve with A for each row, which is too much for thousands of them.
     solution.residuals =
         residuals(problem_, solution, {.length = is_dense_size(problem_) ? Vector() : row_scale_});
-    solution.slack = slack;
     return solution;
   }
 
@@ -168,12 +151,6 @@ class Crossover {
       gap += lambda[a] * rest;
     }
     return off + std::sqrt(gap);
-  }
-
-  double bound_of_held(const HeldRows& held) const {
-    const Vector negative = held.lambda - signed_right(held.lambda);
-    return 2 * held.remaining + 2 * held.contradiction * held.inverse_norm +
-           problem_.A.dual_norm(problem_.U.transpose_times(negative));
   }
 
   Solution with_status(Solution solution) const {
@@ -214,9 +191,9 @@ std::optional<Solution> without_a_method(const NearestPointProblem& problem, std
     candidate.farkas[a] = problem.s[a] > 0 ? 1 : -1;
     return crossover(problem, candidate, accuracy);
   }
-  if (const std::optional<Vector> weights = contradictory_two_sided_rows(problem)) {
-    candidate.farkas = *weights;
-    return crossover(problem, candidate, accuracy);
+  if (!problem.two_sided.empty() && is_dense_size(problem)) {
+    candidate.farkas = active_set_near(problem, {}, candidate.lambda, 0).farkas;
+    if (candidate.farkas.size() > 0) return crossover(problem, candidate, accuracy);
   }
   if (length.size() > 0 && length.maxCoeff() > 0) return std::nullopt;
   return crossover(problem, candidate, accuracy);

@@ -30,7 +30,7 @@ struct Candidate {
 /// proves half of the digits. Where q violates a row, however little, nothing is proved: there may be no
 /// solution.
 ///
-/// From the working set: the point p of the active rows (`hold_active_rows`), refined in twice the working
+/// From the working set: the point p of the active rows (`active_set_near`), refined in twice the working
 /// precision, meets all conditions exactly but for what refinement left, multipliers negative by rounding,
 /// and rows contradicted by rounding; in each of these ||p - q*|| is linear. Then ||q - q*|| <= ||q - p|| +
 /// ||p - q*||.

@@ -19,8 +19,7 @@ struct Held {
 /// All the rows given with equality, as far as they are independent.
 Held hold(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   WorkingSet set(problem);
-  Matrix whitened = whitened_rows(problem, rows);
-  set.append_block(rows, whitened, dependence);
+  set.append_block(rows, dependence);
   set.solve();
   const RefinedPoint refined = refine(set);
   Held held{refined.q.hi, Vector::Zero(problem.rows())};

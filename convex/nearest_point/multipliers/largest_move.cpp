@@ -61,8 +61,7 @@ class HeldEquations {
 
  private:
   void hold(WorkingSet& set, const std::vector<Index>& held) {
-    Matrix whitened = whitened_rows(set.problem(), held);
-    set.append_block(held, whitened, block_dependence);
+    set.append_block(held, block_dependence);
     WorkingSet::Split split;
     for (const Index a : held) {
       if (set.holds(a)) continue;

@@ -91,11 +91,6 @@ double bound_by_gap(const NearestPointProblem& problem, const Solution& answer) 
   return (std::sqrt(2.0) * answer.residuals.duality_gap + unit_roundoff) * scale;
 }
 
-double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
-  const double parts = is_diagonal(problem.A) ? 1 : static_cast<double>(problem.dimension());
-  return std::sqrt(parts * problem.A.diagonal().dot(lo.cwiseAbs2()));
-}
-
 Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
   Solution found;
   found.q = q;

@@ -33,7 +33,4 @@ double bound_by_gap(const NearestPointProblem&, const Solution&);
 /// ||u_a||_(A⁻¹) for the rows given, 0 for the others: m.
 Vector dual_lengths(const NearestPointProblem&, const std::vector<Index>& rows);
 
-/// At least ||lo||_A of what the rounding of q to doubles leaves behind: ||lo||_A² <= n Σ a_ii lo_i².
-double rounding_norm(const NearestPointProblem&, const Vector& lo);
-
 }  // namespace convex::inline optimality

@@ -33,6 +33,8 @@ constexpr int patience = 2;
 constexpr int most_exchanges = 60;
 /// After these, rows go one at a time, at most so often.
 constexpr int most_single = 20;
+/// Exchanges from the rows that another method shows to be active: more is that method's own business.
+constexpr int most_exchanges_near = 3;
 
 /// A sign that so many roundings of the terms could turn is a rounded datum's, not the problem's.
 constexpr double data_roundings = 16;
@@ -76,6 +78,20 @@ class SparseActiveSet {
       zero_part_ = 0;
       if (end == InteriorPointStart::End::stalled || end == InteriorPointStart::End::unbounded) break;
     }
+    return gave_up();
+  }
+
+  Solution run_near(const Vector& q, const std::vector<Index>& rows, const Vector& lambda) {
+    active_ = marked(problem_.rows(), rows);
+    point_.q = DoubleDoubleVector(q);
+    point_.lambda = DoubleDoubleVector(problem_.rows());
+    for (const std::vector<Index>* held : {&rows, &problem_.two_sided})
+      for (Index a : *held) point_.lambda.hi[a] = lambda[a];
+    return exchange(1 + most_exchanges_near, 1) ? answer() : gave_up();
+  }
+
+ private:
+  Solution gave_up() const {
     Solution solution;
     solution.method = method;
     solution.steps = steps_;
@@ -83,7 +99,6 @@ class SparseActiveSet {
     return solution;
   }
 
- private:
   void take_over(const InteriorPointStart& start) {
     point_.q = DoubleDoubleVector(Vector(start.q().cwiseProduct(scaled_.coordinate)));
     point_.lambda = DoubleDoubleVector(problem_.rows());
@@ -268,7 +283,7 @@ class SparseActiveSet {
   }
 
   const NearestPointProblem& problem_;
-  const Accuracy& accuracy_;
+  const Accuracy accuracy_;
   BalancedProblem scaled_;
   RowSystem system_;
   SparsePoint point_;
@@ -294,6 +309,11 @@ bool has_tiny_slacks(const NearestPointProblem& problem, const Solution& solved)
 }
 
 }  // namespace
+
+Solution sparse_active_set_near(const NearestPointProblem& problem, const Vector& q,
+                                const std::vector<Index>& rows, const Vector& lambda) {
+  return SparseActiveSet(problem, {}).run_near(q, rows, lambda);
+}
 
 Solution sparse_active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
                            const std::vector<Index>& guess) {

@@ -17,4 +17,9 @@ namespace convex::inline sparse {
 Solution sparse_active_set(const NearestPointProblem&, const Accuracy& = {},
                            const std::vector<Index>& guess = {});
 
+/// From the point and the multipliers of another method, and the one-sided rows that these show to be active:
+/// the solution where a few exchanges lead to it, else `gave_up`. What is open is said, and not decided.
+Solution sparse_active_set_near(const NearestPointProblem&, const Vector& q, const std::vector<Index>& rows,
+                                const Vector& lambda);
+
 }  // namespace convex::inline sparse
