@@ -1,15 +1,13 @@
 #include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
+#include <utility>
 
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/methods/iteration.hpp"
-#include "convex/nearest_point/reductions/scaled_problem.hpp"
 
 namespace convex::inline algorithms {
 namespace {
 
-constexpr double most_work = 2e10;
 constexpr Index most_steps = 1000000;
 
 /// A step is tested for its length when it is longer than this part of the point.
@@ -63,11 +61,8 @@ Solution accelerated_gradient(const NearestPointProblem& problem, const Accuracy
   double steepest = margin * largest_eigenvalue(V, k);
   Vector y = Vector::Zero(k), ahead = y, before = y, Vy = V.times(y), Vahead = Vy;
   double momentum = 1;
-  const double work = 4 * static_cast<double>(k) * static_cast<double>(within.dimension());
-  const Index limit =
-      std::min(most_steps, static_cast<Index>(most_work / (is_dense_size(problem) ? work : 1e5)) + 8);
   return iterate(
-      problem, accuracy, limit,
+      problem, accuracy, affordable_steps(within, most_steps, 1e5),
       [&](Index) {
         const Vector gradient = V.transpose_times(Vahead) - b;
         Vector next, Vnext;
@@ -93,14 +88,7 @@ Solution accelerated_gradient(const NearestPointProblem& problem, const Accuracy
         momentum = following;
         return false;
       },
-      [&](Index) {
-        const Vector moved = y - before;
-        before = y;
-        return Candidate{.method = "accelerated-gradient",
-                         .q = {},
-                         .lambda = scaled.multipliers(y),
-                         .farkas = scaled.weights(moved)};
-      });
+      [&](Index) { return unscaled("accelerated-gradient", scaled, {}, y, y - std::exchange(before, y)); });
 }
 
 }  // namespace convex::inline algorithms

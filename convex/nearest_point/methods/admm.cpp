@@ -1,10 +1,9 @@
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "convex/nearest_point/methods/iteration.hpp"
-#include "convex/nearest_point/reductions/scaled_problem.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
 namespace convex::inline algorithms {
@@ -17,7 +16,6 @@ constexpr double relaxation = 1.6;
 constexpr double imbalance = 5;
 constexpr Index first_interval = 20;
 
-constexpr double most_work = 2e10;
 constexpr Index most_steps = 200000;
 
 }  // namespace
@@ -35,11 +33,8 @@ Solution admm(const NearestPointProblem& problem, const Accuracy& accuracy) {
   Vector w = Vector::Zero(k), y = w, before = y, q, nu;
   const Vector zero = Vector::Zero(within.dimension());
   Index interval = first_interval, since = 0;
-  const double work = 4 * static_cast<double>(k) * static_cast<double>(within.dimension());
-  const Index limit =
-      std::min(most_steps, static_cast<Index>(most_work / (is_dense_size(problem) ? work : 1e6)) + 8);
   return iterate(
-      problem, accuracy, limit,
+      problem, accuracy, affordable_steps(within, most_steps, 1e6),
       [&](Index) {
         // A q - Uᵀnu = z, U q + nu/rho = s + w + y/rho: nu = y + rho (s + w - U q).
         kkt.solve(within.z, within.s + w + y / rho, q, nu);
@@ -60,14 +55,7 @@ Solution admm(const NearestPointProblem& problem, const Accuracy& accuracy) {
         kkt.factor(rows, Vector::Constant(k, 1 / rho));
         return false;
       },
-      [&](Index) {
-        const Vector moved = y - before;
-        before = y;
-        return Candidate{.method = "admm",
-                         .q = scaled.motion(q),
-                         .lambda = scaled.multipliers(y),
-                         .farkas = scaled.weights(moved)};
-      });
+      [&](Index) { return unscaled("admm", scaled, scaled.motion(q), y, y - std::exchange(before, y)); });
 }
 
 }  // namespace convex::inline algorithms

@@ -108,8 +108,8 @@ Solution block_pivoting(const NearestPointProblem& problem, const Accuracy& accu
     candidate.finished = pivoting.solve(lcp.b + ridge * center, singles, limit, y);
     candidate.steps = pivoting.steps();
     if (!candidate.finished) break;
-    candidate.lambda = white.multipliers(problem, lcp.with_free(white, y));
-    candidate.farkas = white.weights(problem, lcp.with_free(white, y - center));
+    candidate.lambda = white.multipliers(lcp.with_free(white, y));
+    candidate.farkas = white.weights(lcp.with_free(white, y - center));
     Solution found = crossover(problem, candidate, accuracy);
     if (found.status == Status::solved || found.status == Status::infeasible) return found;
     center = y;

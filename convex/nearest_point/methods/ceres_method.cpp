@@ -67,12 +67,7 @@ Solution ceres_method(const NearestPointProblem& problem, const Accuracy& accura
         theta = std::max(last_theta, fall * theta);
         return true;
       },
-      [&](Index) {
-        return Candidate{.method = "ceres",
-                         .q = {},
-                         .lambda = white.multipliers(problem, y),
-                         .farkas = white.weights(problem, y - before)};
-      });
+      [&](Index) { return unscaled("ceres", white, {}, y, y - before); });
 }
 
 }  // namespace convex::inline algorithms

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "convex/nearest_point/methods/iteration.hpp"
-#include "convex/nearest_point/reductions/scaled_problem.hpp"
 #include "convex/nearest_point/sparse/mehrotra_step.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
@@ -103,10 +102,8 @@ Solution interior_point(const NearestPointProblem& problem, const Accuracy& accu
   return iterate(
       problem, accuracy, most_steps, [&](Index) { return method.step(); },
       [&](Index) {
-        return Candidate{.method = "interior-point",
-                         .q = scaled.motion(method.q()),
-                         .lambda = scaled.multipliers(method.lambda()),
-                         .farkas = scaled.weights(method.lambda())};
+        return unscaled("interior-point", scaled, scaled.motion(method.q()), method.lambda(),
+                        method.lambda());
       });
 }
 

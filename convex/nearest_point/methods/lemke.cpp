@@ -134,8 +134,8 @@ Solution lemke(const NearestPointProblem& problem, const Accuracy& accuracy) {
   Pivoting pivoting = Tableau(lcp.M, -lcp.b).run(limit);
   candidate.steps = pivoting.steps;
   const Vector y = lcp.with_free(white, pivoting.y);
-  if (pivoting.end == End::ray) candidate.farkas = white.weights(problem, y);
-  if (pivoting.end == End::solution) candidate.lambda = white.multipliers(problem, y);
+  if (pivoting.end == End::ray) candidate.farkas = white.weights(y);
+  if (pivoting.end == End::solution) candidate.lambda = white.multipliers(y);
   candidate.finished = pivoting.end == End::solution;
   Solution found = crossover(problem, candidate, accuracy);
   if (found.status == Status::solved || found.status == Status::infeasible || accuracy.step_limit > 0)
@@ -151,8 +151,8 @@ Solution lemke(const NearestPointProblem& problem, const Accuracy& accuracy) {
     previous = center;
     center = pivoting.y;
     if (pivoting.end != End::solution) break;
-    candidate.lambda = white.multipliers(problem, lcp.with_free(white, center));
-    candidate.farkas = white.weights(problem, lcp.with_free(white, center - previous));
+    candidate.lambda = white.multipliers(lcp.with_free(white, center));
+    candidate.farkas = white.weights(lcp.with_free(white, center - previous));
     found = crossover(problem, candidate, accuracy);
     if (found.status == Status::solved || found.status == Status::infeasible) return found;
   }

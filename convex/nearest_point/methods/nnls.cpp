@@ -23,7 +23,7 @@ Solution nnls(const NearestPointProblem& problem, const Accuracy& accuracy) {
   candidate.finished = false;
   if ((white.V.transpose() * vertex - white.b).norm() <= consistent) {
     const ConeProjection cone = cone_projection(white.V, vertex, white.free_columns());
-    candidate.lambda = white.multipliers(problem, cone.lambda);
+    candidate.lambda = white.multipliers(cone.lambda);
     candidate.finished = cone.finished;
     Solution found = crossover(problem, candidate, accuracy);
     if (found.status == Status::solved) return found;
@@ -35,8 +35,8 @@ Solution nnls(const NearestPointProblem& problem, const Accuracy& accuracy) {
   const ConeProjection cone = cone_projection(E, target, white.free_columns());
   const double rest = 1 - cone.point[n];  // |E y - e|² at the solution
   candidate.finished = cone.finished;
-  if (rest > consistent * consistent) candidate.lambda = white.multipliers(problem, cone.lambda / rest);
-  if (rest <= 1e-6) candidate.farkas = white.weights(problem, cone.lambda);
+  if (rest > consistent * consistent) candidate.lambda = white.multipliers(cone.lambda / rest);
+  if (rest <= 1e-6) candidate.farkas = white.weights(cone.lambda);
   return crossover(problem, candidate, accuracy);
 }
 

@@ -1,5 +1,7 @@
 #include "convex/nearest_point/methods/every_method.hpp"
 
+#include <utility>
+
 #include "convex/nearest_point/methods/iteration.hpp"
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
@@ -8,8 +10,6 @@ namespace {
 
 constexpr double relaxation = 1.3;
 
-/// Products that all sweeps together may cost.
-constexpr double most_work = 2e10;
 constexpr Index most_sweeps = 1000000;
 
 }  // namespace
@@ -19,10 +19,8 @@ Solution projected_gauss_seidel(const NearestPointProblem& problem, const Accura
   const WhitenedProblem white(problem);
   const Index k = white.size();
   Vector y = Vector::Zero(k), before = y, d = Vector::Zero(problem.dimension());
-  const double sweep = 4 * static_cast<double>(k) * static_cast<double>(problem.dimension());
-  const Index limit = std::min(most_sweeps, static_cast<Index>(most_work / sweep) + 8);
   return iterate(
-      problem, accuracy, limit,
+      problem, accuracy, affordable_steps(problem, most_sweeps, most_work),
       [&](Index) {
         for (Index a = 0; a < k; ++a) {
           double next = y[a] + relaxation * (white.b[a] - white.V.col(a).dot(d));
@@ -35,12 +33,7 @@ Solution projected_gauss_seidel(const NearestPointProblem& problem, const Accura
       },
       [&](Index) {
         d.noalias() = white.V * y;  // what rounding has added up goes
-        const Vector moved = y - before;
-        before = y;
-        return Candidate{.method = "projected-gauss-seidel",
-                         .q = {},
-                         .lambda = white.multipliers(problem, y),
-                         .farkas = white.weights(problem, moved)};
+        return unscaled("projected-gauss-seidel", white, {}, y, y - std::exchange(before, y));
       });
 }
 

@@ -38,12 +38,7 @@ Solution by_proximal_steps(const NearestPointProblem& problem, const Accuracy& a
         next = centres + 1 + centres / 4;
         return true;
       },
-      [&](Index) {
-        return Candidate{.method = steps.method,
-                         .q = scaled.motion(inner.q),
-                         .lambda = scaled.multipliers(inner.lambda),
-                         .farkas = scaled.weights(moved)};
-      });
+      [&](Index) { return unscaled(steps.method, scaled, scaled.motion(inner.q), inner.lambda, moved); });
 }
 
 }  // namespace

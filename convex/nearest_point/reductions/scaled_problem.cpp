@@ -10,7 +10,8 @@ ConstraintRows divided(const ConstraintRows& U, const std::vector<Index>& rows, 
 }
 
 ScaledProblem::ScaledProblem(const NearestPointProblem& original)
-    : problem{original.A, original.z, {}, {}, {}}, original_rows(original.rows()) {
+    : problem{original.A, original.z, {}, {}, {}} {
+  original_rows = original.rows();
   const Vector all = original.U.lengths(original.A.diagonal().cwiseInverse());
   const std::vector<bool> is_two_sided = marked(original_rows, original.two_sided);
   for (Index a = 0; a < original_rows; ++a)
@@ -29,7 +30,7 @@ ScaledProblem::ScaledProblem(const NearestPointProblem& original)
   problem.s /= unit;
 }
 
-Vector ScaledProblem::multipliers(const Vector& lambda) const {
+Vector ScaledRows::multipliers(const Vector& lambda) const {
   Vector found = Vector::Zero(original_rows);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Index i = static_cast<Index>(k);

@@ -8,11 +8,12 @@ WhitenedProblem::WhitenedProblem(const NearestPointProblem& problem) {
   const Index n = problem.dimension(), m = problem.rows();
   const Matrix all = whitened_rows(problem, indices_below(m));
   const Vector lengths = all.colwise().norm(), w_free = problem.A.whiten(problem.z);
-  const std::vector<bool> two_sided = marked(m, problem.two_sided);
+  const std::vector<bool> is_two_sided = marked(m, problem.two_sided);
+  original_rows = m;
   for (Index a = 0; a < m; ++a)
     if (lengths[a] > 0) {
       rows.push_back(a);
-      free.push_back(two_sided[at(a)]);
+      two_sided.push_back(is_two_sided[at(a)]);
     }
   const Index k = static_cast<Index>(rows.size());
   V.resize(n, k);
@@ -33,18 +34,6 @@ std::vector<Index> WhitenedProblem::free_columns() const {
   for (Index a = 0; a < size(); ++a)
     if (is_free(a)) columns.push_back(a);
   return columns;
-}
-
-Vector WhitenedProblem::multipliers(const NearestPointProblem& problem, const Vector& y) const {
-  Vector lambda = Vector::Zero(problem.rows());
-  for (Index a = 0; a < size(); ++a) lambda[rows[at(a)]] = y[a] * unit / length[a];
-  return lambda;
-}
-
-Vector WhitenedProblem::weights(const NearestPointProblem& problem, const Vector& y) const {
-  Vector found = Vector::Zero(problem.rows());
-  for (Index a = 0; a < size(); ++a) found[rows[at(a)]] = y[a] / length[a];
-  return found;
 }
 
 }  // namespace convex::inline reductions
