@@ -37,6 +37,7 @@ double radius(double value, double magnitude, Index terms) {
 }  // namespace
 
 void CompensatedSum::add(double x, double y) {
+  if (y == 0) return;
   const double scaled = splitter * y, y_high = scaled - (scaled - y), y_low = y - y_high;
   add_term(x, y, y_high, y_low, sum_, rest_);
   magnitude_ += std::abs(x * y);

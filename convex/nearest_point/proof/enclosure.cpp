@@ -62,7 +62,7 @@ bool follow(const NearestPointProblem& problem, const RadiiOf& radii, const Prec
     const Parts parts = parts_of(problem, P, active, held, o.row);
     if (parts.others.size() > most_others)
       together.push_back(o.row);
-    else if (!follows_exactly(problem, o.row, parts.others))
+    else if (!follow_exactly(problem, {o.row}, parts.others, most_word_operations))
       return false;
   }
   return together.empty() || follow_exactly(problem, together, held, most_word_operations);
@@ -229,7 +229,7 @@ std::optional<double> bound_from(const NearestPointProblem& problem, const Radii
   }
   if (!std::isfinite(point.radius)) return std::nullopt;
   if (!radii.any() && is_kept_exactly(problem, held.rows, point))
-    return unbalanced_above(problem, radii, P, *active, held.rows, point);
+    return unbalanced_above(problem, radii, P, held.rows, point);
   if (!multipliers_are_positive(problem, held.rows, point)) return std::nullopt;
   const auto shift = shift_of_open_rows(problem, radii, P, *active, held.rows, point);
   if (!shift) return std::nullopt;

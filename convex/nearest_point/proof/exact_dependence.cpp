@@ -75,22 +75,11 @@ std::optional<ZeroSum> zero_sum(const NearestPointProblem& problem, const std::v
   return found;
 }
 
-std::vector<Index> with_first(Index a, const std::vector<Index>& others) {
-  std::vector<Index> rows{a};
-  rows.insert(rows.end(), others.begin(), others.end());
-  return rows;
-}
-
 }  // namespace
 
-bool follows_exactly(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
-  const auto found = zero_sum(problem, with_first(a, others));
-  if (!found) return false;
-  return problem.is_two_sided(a) ? sign(found->left) == 0 : sign(found->left) * found->w[0].sign() <= 0;
-}
-
 bool are_equalities(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
-  const std::vector<Index> rows = with_first(a, others);
+  std::vector<Index> rows{a};
+  rows.insert(rows.end(), others.begin(), others.end());
   const auto found = zero_sum(problem, rows);
   if (!found || sign(found->left) != 0) return false;
   for (std::size_t r = 0; r < rows.size(); ++r)

@@ -20,18 +20,15 @@ ExactProblem as_integers(const RestrictedRows&);
 /// rows are independent in; empty when there is more than one such w up to a factor.
 IntegerVector dependence_of(const ExactProblem& exact);
 
-/// Whether the equations u_r·q = s_r of the rows `others` imply that of row a (u_a·q >= s_a when it is
-/// one-sided): u_a is exactly a combination of those rows, all of them needed, and s_a (at most) that of
-/// their bounds. In integers.
-bool follows_exactly(const NearestPointProblem&, Index a, const std::vector<Index>& others);
-
 /// Whether rows a and `others`, each of them needed, add up to 0 with positive weights (of any sign on
 /// two-sided rows), and their bounds too: then each holds with equality wherever all are satisfied. In
 /// integers.
 bool are_equalities(const NearestPointProblem&, Index a, const std::vector<Index>& others);
 
-/// Whether the equations of the rows `held`, which are independent, imply those rows, as `follows_exactly`
-/// says: by one integer system for all. False, too, when that takes more than so many word operations.
+/// Whether the equations u_r·q = s_r of the rows `held`, which are independent, imply those of other rows
+/// (u_a·q >= s_a when they are one-sided): each u_a is exactly a combination of those held, and s_a (at most)
+/// that of their bounds. By one integer system for all. False, too, when that takes more than so many word
+/// operations.
 bool follow_exactly(const NearestPointProblem&, const std::vector<Index>& rows,
                     const std::vector<Index>& held, double most_words);
 

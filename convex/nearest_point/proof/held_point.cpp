@@ -138,58 +138,55 @@ std::optional<Active> active_rows(const NearestPointProblem& problem, const Radi
   return active;
 }
 
-namespace {
-
-/// r1 = z + U_Wᵀlambda - A q and r2 = s_W - U_W q at q + dq and lambda + dlambda, with bounds.
-struct KktResidual {
-  Vector r1, r1_radius, r2, r2_radius;
-};
-
-KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-                         const Active& active, const std::vector<Index>& rows, const HeldPoint& point) {
-  const Index n = P.dimension(), k = active.U.rows();
-  KktResidual found;
-  if (P.is_diagonal) {
-    found.r1.resize(n);
-    found.r1_radius.resize(n);
-    for (Index i = 0; i < n; ++i) {
-      CompensatedSum sum;
-      sum.add(problem.z[i], 1);
-      for (Index r = 0; r < k; ++r) {
-        sum.add(active.U(r, i), point.lambda[r]);
-        sum.add(active.U(r, i), point.dlambda[r]);
-      }
-      sum.add(-P.a[i], point.q[i]);
-      sum.add(-P.a[i], point.dq[i]);
-      found.r1[i] = sum.result().value;
-      found.r1_radius[i] = sum.result().radius;
-    }
-  } else {
+KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radii,
+                         const std::vector<Index>& rows, const HeldPoint& point) {
+  const Index n = problem.dimension(), k = static_cast<Index>(rows.size());
+  KktResidual found{Vector(n), Vector(n), Vector(k), Vector(k)};
+  const auto add = [](CompensatedSum& sum, double factor, double x, double dx) {
+    sum.add(factor, x);
+    sum.add(factor, dx);
+  };
+  if (problem.A.kind() == MetricKind::dense) {
     CompensatedSums balance(n);
     balance.add(problem.z.data(), 1);
     Vector row(n);
     for (Index r = 0; r < k; ++r) {
-      row = active.U.row(r);
+      problem.U.copy_row(rows[at(r)], row);
       balance.add(row.data(), point.lambda[r]);
       balance.add(row.data(), point.dlambda[r]);
     }
     for (Index j = 0; j < n; ++j) {
-      balance.add(P.A.col(j).data(), -point.q[j]);
-      balance.add(P.A.col(j).data(), -point.dq[j]);
+      const double* const column = problem.A.dense_gram().col(j).data();
+      balance.add(column, -point.q[j]);
+      balance.add(column, -point.dq[j]);
     }
     balance.result(found.r1, found.r1_radius);
-  }
-  found.r2.resize(k);
-  found.r2_radius.resize(k);
-  for (Index r = 0; r < k; ++r) {
-    CompensatedSum sum;
-    sum.add(problem.s[rows[at(r)]], 1);
-    for (Index i = 0; i < n; ++i) {
-      sum.add(-active.U(r, i), point.q[i]);
-      sum.add(-active.U(r, i), point.dq[i]);
+  } else {
+    std::vector<CompensatedSum> balance(at(n));
+    for (Index i = 0; i < n; ++i) balance[at(i)].add(problem.z[i], 1);
+    for (Index r = 0; r < k; ++r)
+      problem.U.for_each_entry(
+          rows[at(r)], [&](Index i, double u) { add(balance[at(i)], u, point.lambda[r], point.dlambda[r]); });
+    for (Index j = 0; j < n; ++j) {
+      if (problem.A.kind() != MetricKind::sparse) {
+        add(balance[at(j)], -problem.A.diagonal()[j], point.q[j], point.dq[j]);
+        continue;
+      }
+      for (SparseMatrix::InnerIterator it(problem.A.sparse_gram(), j); it; ++it)
+        add(balance[at(it.row())], -it.value(), point.q[j], point.dq[j]);
     }
-    found.r2[r] = sum.result().value;
-    found.r2_radius[r] = sum.result().radius;
+    for (Index i = 0; i < n; ++i) {
+      const Enclosed sum = balance[at(i)].result();
+      found.r1[i] = sum.value;
+      found.r1_radius[i] = sum.radius;
+    }
+  }
+  for (Index r = 0; r < k; ++r) {
+    CompensatedSum gap;
+    gap.add(problem.s[rows[at(r)]], 1);
+    problem.U.for_each_entry(rows[at(r)], [&](Index i, double u) { add(gap, -u, point.q[i], point.dq[i]); });
+    found.r2[r] = gap.result().value;
+    found.r2_radius[r] = gap.result().radius;
   }
   if (!radii.any()) return found;
   const Vector size = above(1) * (point.q.cwiseAbs() + point.dq.cwiseAbs()),
@@ -201,6 +198,8 @@ KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radi
   }
   return found;
 }
+
+namespace {
 
 /// One step of refinement, kept apart from q and lambda.
 void correct(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
@@ -245,7 +244,7 @@ HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, c
   // Corrections until they no longer shrink the radius: where rows are open the bound takes its root.
   constexpr int most_corrections = 4;
   constexpr double still_shrinks = 0.25;
-  KktResidual residual = kkt_residual(problem, radii, P, active, rows, point);
+  KktResidual residual = kkt_residual(problem, radii, rows, point);
   HeldPoint best = point;
   best.radius = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_corrections; ++step) {
@@ -253,7 +252,7 @@ HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, c
     // What is too small to matter is left to the bound.
     point.dq = (point.dq.array().abs() >= smallest_ordinary).select(point.dq, 0.0);
     point.dlambda = (point.dlambda.array().abs() >= smallest_ordinary).select(point.dlambda, 0.0);
-    residual = kkt_residual(problem, radii, P, active, rows, point);
+    residual = kkt_residual(problem, radii, rows, point);
     enclose(P, active, residual, point);
     const bool shrinks = point.radius < still_shrinks * best.radius;
     if (point.radius < best.radius || step == 0) best = point;
@@ -263,9 +262,9 @@ HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, c
 }
 
 double unbalanced_above(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-                        const Active& active, const std::vector<Index>& rows, HeldPoint point) {
+                        const std::vector<Index>& rows, HeldPoint point) {
   point.dq.setZero();
-  const KktResidual residual = kkt_residual(problem, radii, P, active, rows, point);
+  const KktResidual residual = kkt_residual(problem, radii, rows, point);
   return dual_length_above(P, residual.r1, residual.r1_radius);
 }
 

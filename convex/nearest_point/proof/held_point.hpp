@@ -72,12 +72,20 @@ struct HeldPoint {
   double radius = 0;
 };
 
+/// r1 = z + U_Sᵀlambda - A q and r2 = s_S - U_S q at q + dq and lambda + dlambda, each known to its radius
+/// for every problem within the radii.
+struct KktResidual {
+  Vector r1, r1_radius, r2, r2_radius;
+};
+KktResidual kkt_residual(const NearestPointProblem&, const RadiiOf&, const std::vector<Index>& rows,
+                         const HeldPoint&);
+
 /// The point of the rows from a guess, refined once, with its bounds.
 HeldPoint held_point(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
                      const std::vector<Index>& rows, const Vector& q, const Vector& lambda);
 
 /// At least ||Aq - z - U_Sᵀ(lambda + dlambda)||_(A⁻¹) of a held point, its dq left out.
-double unbalanced_above(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
+double unbalanced_above(const NearestPointProblem&, const RadiiOf&, const Preconditioned&,
                         const std::vector<Index>& rows, HeldPoint);
 
 /// At least ||dq||_A, for every metric within the radii.

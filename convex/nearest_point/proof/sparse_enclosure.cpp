@@ -112,51 +112,6 @@ std::optional<double> least_of_rows(const SparseRows& U, double uncertainty) {
   return below(below(singular) * singular);
 }
 
-struct ResidualBounds {
-  Vector r1, r2;  ///< |z + U_Sᵀlambda - A q|, |s_S - U_S q|, at least
-};
-
-ResidualBounds residuals_above(const NearestPointProblem& problem, const RadiiOf& radii,
-                               const Solution& solution, const std::vector<Index>& held) {
-  const Index n = problem.dimension();
-  std::vector<CompensatedSum> balance(static_cast<std::size_t>(n));
-  for (Index i = 0; i < n; ++i) balance[static_cast<std::size_t>(i)].add(problem.z[i], 1);
-  if (problem.A.kind() == MetricKind::sparse) {
-    const SparseMatrix& A = problem.A.sparse_gram();
-    for (Index j = 0; j < n; ++j)
-      for (SparseMatrix::InnerIterator it(A, j); it; ++it)
-        balance[static_cast<std::size_t>(it.row())].add(-it.value(), solution.q[j]);
-  } else {
-    const Vector a = problem.A.diagonal();
-    for (Index i = 0; i < n; ++i) balance[static_cast<std::size_t>(i)].add(-a[i], solution.q[i]);
-  }
-  ResidualBounds found{Vector(n), Vector(static_cast<Index>(held.size()))};
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    CompensatedSum gap;
-    gap.add(problem.s[held[k]], 1);
-    problem.U.for_each_entry(held[k], [&](Index i, double u) {
-      gap.add(-u, solution.q[i]);
-      balance[static_cast<std::size_t>(i)].add(u, solution.lambda[held[k]]);
-    });
-    found.r2[static_cast<Index>(k)] = above(std::abs(gap.result().value) + gap.result().radius);
-  }
-  for (Index i = 0; i < n; ++i) {
-    const Enclosed sum = balance[static_cast<std::size_t>(i)].result();
-    found.r1[i] = above(std::abs(sum.value) + sum.radius);
-  }
-  if (!radii.any()) return found;
-  const Vector size = solution.q.cwiseAbs();
-  Vector weights(static_cast<Index>(held.size()));
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    const auto row = static_cast<Index>(k);
-    weights[row] = std::abs(solution.lambda[held[k]]);
-    found.r2[row] = above(found.r2[row] + radii.s(held[k]) + radii.row_times(held[k], size));
-  }
-  found.r1 = above(1) *
-             (found.r1 + radii.z(n) + radii.A_times(size) + radii.rows_transposed_times(held, weights, n));
-  return found;
-}
-
 bool slacks_are_positive(const NearestPointProblem& problem, const RadiiOf& radii, const Vector& q,
                          const Vector& reach, const std::vector<bool>& is_held) {
   const Vector size = above(1) * (q.cwiseAbs() + reach);
@@ -209,9 +164,14 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
   if (!sigma) return std::nullopt;
   const double beta = above(row_sum_above(scaled.A) + loose);
 
-  const ResidualBounds rest = residuals_above(problem, radii, solution, held);
-  const double imbalance = above(norm_above(scaled.d.cwiseProduct(rest.r1)) / std::sqrt(*alpha));
-  const double gap = held.empty() ? 0 : norm_above(scaled.r.cwiseProduct(rest.r2)),
+  const Vector lambda = solution.lambda(held);
+  const KktResidual rest =
+      kkt_residual(problem, radii, held,
+                   {solution.q, Vector::Zero(solution.q.size()), lambda, Vector::Zero(lambda.size()), {}, 0});
+  const double imbalance =
+      above(norm_above(scaled.d.cwiseProduct(rest.r1.cwiseAbs() + rest.r1_radius)) / std::sqrt(*alpha));
+  const double gap =
+                   held.empty() ? 0 : norm_above(scaled.r.cwiseProduct(rest.r2.cwiseAbs() + rest.r2_radius)),
                weak = above(beta / *sigma);
   const double radius = above(imbalance + std::sqrt(weak) * gap);
   const double change = above(weak * gap + std::sqrt(weak) * imbalance);

@@ -117,19 +117,22 @@ TEST_CASE("what follows exactly is told from what follows but for rounding") {
                     {-1, -2, 0}, {0.1, 0.2, 0}, {1, 5, 1 + 0x1p-52}};
   const Vector s{{1, 2, 3, 2, -1, 0.1, 3}};
   NearestPointProblem problem{convex::Metric::identity(3), Vector::Zero(3), convex::ConstraintRows(U), s, {}};
-  CHECK(convex::follows_exactly(problem, 2, {0, 1}));
-  CHECK(convex::follows_exactly(problem, 3, {0}));
-  CHECK(convex::follows_exactly(problem, 4, {0}));
+  const auto follow = [&](convex::Index a, const std::vector<convex::Index>& held) {
+    return convex::follow_exactly(problem, {a}, held, 1e6);
+  };
+  CHECK(follow(2, {0, 1}));
+  CHECK(follow(3, {0}));
+  CHECK(follow(4, {0}));
   // The double 0.2 is twice the double 0.1, and 0.1 its own bound.
-  CHECK(convex::follows_exactly(problem, 5, {0}));
-  CHECK_FALSE(convex::follows_exactly(problem, 6, {0, 1}));
-  CHECK_FALSE(convex::follows_exactly(problem, 1, {0}));
+  CHECK(follow(5, {0}));
+  CHECK_FALSE(follow(6, {0, 1}));
+  CHECK_FALSE(follow(1, {0}));
   problem.s[2] = 3 + 0x1p-51;
-  CHECK_FALSE(convex::follows_exactly(problem, 2, {0, 1}));
+  CHECK_FALSE(follow(2, {0, 1}));
   problem.s[2] = 3 - 0x1p-51;
-  CHECK(convex::follows_exactly(problem, 2, {0, 1}));
+  CHECK(follow(2, {0, 1}));
   problem.two_sided = {2};
-  CHECK_FALSE(convex::follows_exactly(problem, 2, {0, 1}));
+  CHECK_FALSE(follow(2, {0, 1}));
 }
 
 TEST_CASE(
