@@ -7,7 +7,6 @@
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/degenerate_rows.hpp"
 #include "convex/nearest_point/active_set/dependent_row.hpp"
-#include "convex/nearest_point/active_set/refined_slacks.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/pivoting/gram_method.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
@@ -108,7 +107,6 @@ class DualActiveSet {
         return false;
       }
     }
-    set_.fix();
     set_.solve();
     judge_noise();
     return true;

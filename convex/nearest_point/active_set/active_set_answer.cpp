@@ -9,6 +9,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
+#include "convex/nearest_point/reductions/left_out.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline dual_active_set {
@@ -100,6 +101,17 @@ Solution infeasible_answer(const NearestPointProblem& problem, const Vector& wei
   // The smallest weight is 1: combinations of whole rows read as whole numbers.
   solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), INFINITY).minCoeff();
   return solution;
+}
+
+std::optional<Vector> contradiction_within_radii(const NearestPointProblem& problem, const Vector& w) {
+  std::vector<Index> rows;
+  for (Index a = 0; a < w.size(); ++a)
+    if (w[a] != 0) rows.push_back(a);
+  const Solution found = active_set_of_valid(with_rows(problem, rows), {}, {});
+  if (found.status != Status::infeasible) return std::nullopt;
+  Vector weights = Vector::Zero(problem.rows());
+  weights(rows) = found.farkas;
+  return weights;
 }
 
 }  // namespace convex::inline dual_active_set

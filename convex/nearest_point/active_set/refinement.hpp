@@ -84,4 +84,9 @@ Index most_negative(const WorkingSet& set, const Vector& lambda, double noise);
 /// The same of a refined one, beyond what may be missing in it.
 Index most_negative(const WorkingSet& set, const RefinedPoint& refined);
 
+/// u_a·q - s_a of all rows at a refined point: 0 on the working set; those near zero in twice the working
+/// precision, and 0 when they cannot be told from it. A violation so taken for 0 may move the edge of rows at
+/// a small angle: that is added to `dropped` of the point. row_scale: ||u_a||_(D⁻¹), D the diagonal of A.
+Vector refined_slacks(WorkingSet& set, RefinedPoint& point, const Vector& row_scale);
+
 }  // namespace convex::inline dual_active_set

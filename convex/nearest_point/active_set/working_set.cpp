@@ -34,6 +34,7 @@ WorkingSet::WorkingSet(const NearestPointProblem& problem)
     : problem_(problem),
       factor_(problem.dimension(), std::min(problem.dimension(), problem.rows())),
       position_(at(problem.rows()), -1),
+      two_sided_(marked(problem.rows(), problem.two_sided)),
       w_free_(problem.A.whiten(problem.z)),
       w_(w_free_),
       lambda_(factor_.capacity()) {

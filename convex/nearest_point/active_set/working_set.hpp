@@ -22,8 +22,7 @@ inline constexpr double block_dependence = 1e-7;
 Matrix whitened_rows(const NearestPointProblem&, const std::vector<Index>& rows);
 
 /// The working set S, rows held with equality, and the point that they define, in whitened terms: v_a =
-/// F⁻¹u_a, w = Fᵀq, w_free = F⁻¹z; w = w_free + Σ_S lambda_a v_a with v_a·w = s_a on S. Two-sided rows stand
-/// first and stay.
+/// F⁻¹u_a, w = Fᵀq, w_free = F⁻¹z; w = w_free + Σ_S lambda_a v_a with v_a·w = s_a on S.
 class WorkingSet {
  public:
   explicit WorkingSet(const NearestPointProblem&);
@@ -32,9 +31,8 @@ class WorkingSet {
   Index size() const { return factor_.size(); }
   const std::vector<Index>& rows() const { return rows_; }
   bool holds(Index a) const { return position_[at(a)] >= 0; }
-  bool one_sided(Index k) const { return k >= fixed_; }
-  /// Declares the working set so far two-sided: its rows are never dropped.
-  void fix() { fixed_ = size(); }
+  /// Whether row k of S is one-sided; two-sided ones are never dropped.
+  bool one_sided(Index k) const { return !two_sided_[at(rows_[at(k)])]; }
 
   const linear_algebra::OrthogonalFactor& factor() const { return factor_; }
   const Vector& w_free() const { return w_free_; }
@@ -81,7 +79,7 @@ class WorkingSet {
   linear_algebra::OrthogonalFactor factor_;
   std::vector<Index> rows_;
   std::vector<Index> position_;  // of row a in rows_, or -1
-  Index fixed_ = 0;
+  std::vector<bool> two_sided_;
   Vector w_free_, w_, lambda_;
 };
 

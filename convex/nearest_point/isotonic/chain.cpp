@@ -8,7 +8,7 @@
 
 #include "convex/nearest_point/isotonic/chain_answer.hpp"
 #include "convex/nearest_point/isotonic/chain_kernels.hpp"
-#include "convex/nearest_point/optimality/sparse_residuals.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 
 namespace convex::inline isotonic {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/optimality/complementarity.hpp"
+#include "convex/nearest_point/reductions/whitened_problem.hpp"
 
 namespace convex::inline algorithms {
 namespace {

@@ -34,7 +34,6 @@ class Enumeration {
         rows_.push_back(a);
       }
     }
-    set_.fix();
   }
 
   /// Certifies S, then all sets that extend it by rows from `first` on. False to stop.

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/optimality/complementarity.hpp"
+#include "convex/nearest_point/reductions/whitened_problem.hpp"
 
 namespace convex::inline algorithms {
 namespace {

@@ -1,5 +1,7 @@
 #include "convex/nearest_point/optimality/farkas.hpp"
+#include "convex/nearest_point/active_set/dependent_row.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,6 +42,51 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
       rest.size() == 0 || rest.cwiseAbs().maxCoeff() <= combination_roundings * unit_roundoff * terms;
   return combines &&
          gap.value() > gap_roundings * unit_roundoff * magnitude + problem.A.dual_norm(rest) * reach + unsure;
+}
+
+namespace {
+
+/// A weight this small beside the largest (times the lengths of the rows) is left out.
+constexpr double support = 1e-9;
+
+}  // namespace
+
+std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const Vector& w, double reach) {
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
+  const Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
+  const Vector weight = w.cwiseAbs().cwiseProduct(length);
+  if (problem.rows() == 0 || !weight.allFinite() || !(weight.maxCoeff() > 0)) return std::nullopt;
+  std::vector<Index> rows;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (weight[a] > support * weight.maxCoeff() && (w[a] > 0 || two_sided[at(a)])) rows.push_back(a);
+  std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return weight[a] > weight[b]; });
+  WorkingSet set(problem);
+  WorkingSet::Split split;
+  for (Index p : rows) {
+    double rest = w[p];
+    bool gone = false;
+    set.split(p, split);
+    while (!gone && !(split.rho > 0)) {
+      const double gap = contradiction(set, p, split), sign = gap < 0 ? -1 : 1;
+      // The weights move by sign (1, -r); the first one-sided weight that comes to 0 stops them.
+      const auto [blocking, step] =
+          blocking_row(set, split, sign, sign < 0 && !two_sided[at(p)] ? rest : infinity);
+      if (!std::isfinite(step)) {
+        if (!(std::abs(gap) > 0)) break;  // a dependence that proves nothing
+        const Vector weights = contradiction_weights(set, p, split, sign);
+        if (proves_infeasibility(problem, weights, reach)) return weights;
+        break;
+      }
+      set.lambda().head(set.size()) -= sign * step * split.coefficients.head(set.size());
+      rest += sign * step;
+      gone = blocking < 0;
+      if (gone) break;
+      set.remove(blocking);
+      set.split(p, split);
+    }
+    if (!gone && split.rho > 0) set.append(p, split, rest);
+  }
+  return std::nullopt;
 }
 
 }  // namespace convex::inline optimality

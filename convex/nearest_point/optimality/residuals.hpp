@@ -21,6 +21,14 @@ struct KnownParts {
 /// again.
 Residuals residuals(const NearestPointProblem&, const Solution&, KnownParts known = {});
 
+/// `residuals` for a diagonal A and sparse rows: the same numbers from one pass over the rows, without lists.
+/// Lengths are computed, whether known or not.
+Residuals sparse_residuals(const NearestPointProblem&, const Solution&);
+
+/// The same where ||Aq - z - Uᵀlambda||_(A⁻¹) is known; only the rows first … end - 1 may leave anything.
+Residuals sparse_residuals(const NearestPointProblem&, const Solution&, double unbalanced, Index first,
+                           Index end);
+
 /// Whether a row is violated by more than the error bound allows: then one of the two is wrong, and nothing
 /// is known of the error.
 bool violates_beyond_bound(const Solution&);

@@ -9,7 +9,6 @@
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/held_point.hpp"
-#include "convex/nearest_point/proof/held_slacks.hpp"
 #include "convex/nearest_point/proof/open_rows.hpp"
 #include "convex/nearest_point/proof/sparse_enclosure.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "convex/exact/rounding_bounds.hpp"
 #include "convex/linear_algebra/sparse_cholesky.hpp"
+#include "convex/nearest_point/reductions/balanced_problem.hpp"
 
 namespace convex::inline proof {
 namespace {
@@ -59,14 +60,7 @@ struct Balanced {
 
 Balanced balanced(const NearestPointProblem& problem, const std::vector<Index>& held) {
   Balanced found;
-  const Index n = problem.dimension();
-  if (problem.A.kind() == MetricKind::sparse) {
-    found.A = problem.A.sparse_gram();
-  } else {
-    found.A.resize(n, n);
-    found.A.setIdentity();
-    found.A.diagonal() = problem.A.diagonal();
-  }
+  found.A = sparse_gram(problem.A);
   found.d = problem.A.diagonal().unaryExpr(&scale_of);
   found.A = found.d.asDiagonal() * found.A * found.d.asDiagonal();
   const ConstraintRows rows = problem.U.select(held);

@@ -3,9 +3,8 @@
 #include <cmath>
 
 namespace convex::inline reductions {
-namespace {
 
-SparseMatrix gram(const Metric& A) {
+SparseMatrix sparse_gram(const Metric& A) {
   if (A.kind() == MetricKind::sparse) return A.sparse_gram();
   if (A.kind() == MetricKind::dense) return A.dense_gram().sparseView(1, 0);
   SparseMatrix W(A.dimension(), A.dimension());
@@ -14,6 +13,8 @@ SparseMatrix gram(const Metric& A) {
   return W;
 }
 
+namespace {
+
 double largest(const Vector& x) { return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0; }
 
 }  // namespace
@@ -21,7 +22,7 @@ double largest(const Vector& x) { return x.size() > 0 ? x.cwiseAbs().maxCoeff() 
 BalancedProblem balanced_problem(const NearestPointProblem& problem) {
   BalancedProblem scaled;
   const Vector root = problem.A.diagonal().cwiseSqrt();
-  scaled.A = gram(problem.A);
+  scaled.A = sparse_gram(problem.A);
   for (Index j = 0; j < scaled.A.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(scaled.A, j); it; ++it)
       it.valueRef() = it.row() == j ? 1 : it.value() / root[it.row()] / root[j];

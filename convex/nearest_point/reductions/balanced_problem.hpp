@@ -4,6 +4,9 @@
 
 namespace convex::inline reductions {
 
+/// A as a sparse matrix, whatever it is stored as.
+SparseMatrix sparse_gram(const Metric& A);
+
 /// A sparse nearest-point problem in units in which numbers are near 1: coordinates in which the diagonal of
 /// A is 1, rows of length 1, z and s in units of the largest. q = unit coordinate ∘ q_scaled, and
 /// lambda = unit multiplier ∘ lambda_scaled.

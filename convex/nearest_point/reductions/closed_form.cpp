@@ -5,7 +5,6 @@
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/degenerate_rows.hpp"
-#include "convex/nearest_point/active_set/refined_slacks.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 
 namespace convex::inline reductions {
@@ -29,7 +28,6 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
     set.solve();
     point = refine(set);
   }
-  if (is_two_sided) set.fix();
   Vector rest = refined_slacks(set, point, row_scale);
   const bool held = set.size() == 1;
   if (!(point.contraction < trusted_contraction)) return std::nullopt;

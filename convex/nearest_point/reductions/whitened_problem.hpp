@@ -18,4 +18,19 @@ struct WhitenedProblem : ScaledRows {
   std::vector<Index> free_columns() const;
 };
 
+/// The linear complementarity problem of a nearest-point problem: w = M y - b >= 0, y >= 0, y·w = 0 over the
+/// one-sided columns of `WhitenedProblem`, M = VᵀV after the free columns have been projected out by an
+/// orthogonal factor.
+struct Complementarity {
+  explicit Complementarity(const WhitenedProblem&);
+
+  Matrix V;                    ///< n×k, the one-sided columns at right angles to the free ones
+  Matrix M;                    ///< k×k
+  Vector b;                    ///< k
+  std::vector<Index> columns;  ///< of WhitenedProblem
+
+  /// Multipliers of all columns from those of the one-sided ones.
+  Vector with_free(const WhitenedProblem&, const Vector& y) const;
+};
+
 }  // namespace convex::inline reductions

@@ -3,6 +3,7 @@
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_algebra/sparse_cholesky.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/reductions/balanced_problem.hpp"
 
 namespace convex::inline sparse {
 
@@ -26,16 +27,7 @@ RegularisedKkt::RegularisedKkt(const NearestPointProblem& problem) : problem_(pr
     return;
   }
   sparse_ = std::make_unique<Sparse>();
-  switch (problem.A.kind()) {
-    case MetricKind::sparse:
-      sparse_->A = problem.A.sparse_gram();
-      break;
-    case MetricKind::dense:
-      sparse_->A = problem.A.dense_gram().sparseView();
-      break;
-    default:
-      sparse_->A = SparseMatrix(problem.A.diagonal().asDiagonal());
-  }
+  sparse_->A = sparse_gram(problem.A);
 }
 
 RegularisedKkt::~RegularisedKkt() = default;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "convex/nearest_point/active_set/contradiction_within_radii.hpp"
+#include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
