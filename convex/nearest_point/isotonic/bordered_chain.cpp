@@ -94,12 +94,10 @@ class BorderedChain {
       if (strings_.row[k] >= 0) place_of_row[at(strings_.row[k])] = static_cast<int>(k);
     const auto sign_of = [&](Index a) -> std::optional<int> {
       const int k = place_of_row[at(a)];
-      return k < 0 ? std::nullopt : pooling_.rise_below(k, problem_.z, linear_, rest_);
+      return k < 0 ? std::nullopt : pooling_.rise_below(k, linear_, rest_);
     };
-    const double rounding = 8 * unit_roundoff * unit_roundoff * static_cast<double>(problem_.dimension()) *
-                            pooling_.farthest_offset();
-    Solution found =
-        string_answer(problem_, accuracy, pooling_.q(), std::move(lambda), missing_ + rounding, sign_of);
+    Solution found = string_answer(problem_, accuracy, pooling_.q(), std::move(lambda),
+                                   missing_ + pooling_.rounding(), sign_of);
     found.method = "bordered-chain";
     for (Index a = 0; a < problem_.rows(); ++a)
       if (std::abs(found.lambda[a]) > 0) found.basis.push_back(a);

@@ -67,7 +67,10 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
   found.lambda.resize(m);
   found.slack.resize(m);
   std::optional<double> largest = place_pools(chain, pool(chain, arena), false, found);
-  if (!largest) largest = place_pools(chain, pool_carefully(chain), true, found);
+  if (!largest) {
+    const auto load = [&](Index k) { return chain.lowered(k, {problem.z[order.coordinate(k)], 0}); };
+    largest = place_pools(chain, pool_carefully(chain, 0, n, load), true, found);
+  }
   const double scale = std::max(found.acceleration_norm, found.force_norm);
   // On level ground the coordinates of a pool are equal, and only the floor has anything left to round.
   const Index floor = order.row(0);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "convex/nearest_point/isotonic/chain_kernels.hpp"
-#include "convex/nearest_point/isotonic/exact_rise.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
 
@@ -220,11 +219,7 @@ class Placement {
     constexpr double safety = 64;
     const double scale = std::max(found_.acceleration_norm, found_.force_norm);
     const double sums = safety * rounding_of_pools(chain_, scale);
-    const StringMembers members = [&](Index k) {
-      const Index row = order_.row(k), i = order_.coordinate(k);
-      return row < 0 ? StringMember{chain_.mass[i], chain_.linear[i], 1, 0}
-                     : StringMember{chain_.mass[i], chain_.linear[i], order_.factor(k), chain_.s[row]};
-    };
+    const StringMembers members = chain_.members();
     for (std::size_t p = lifted_; p + 1 < pools_.size(); ++p) {
       const Index k = pools_[p], row = order_.row(k);
       if (row < 0 || found_.lambda[row] > 0) continue;

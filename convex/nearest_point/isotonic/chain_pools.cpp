@@ -106,32 +106,37 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order, 
       linear(problem.z.data()),
       s(problem.s.data()),
       order(the_order) {
-  bool level = true;  // but for the floor
-  for (Index k = 1; k < n && level; ++k) level = std::abs(s[order.row(k)]) <= 0;
+  bool level = true;  // but for floors
+  order.each_string(n, [&](Index begin, Index end) {
+    for (Index k = begin + 1; k < end && level; ++k) level = std::abs(s[order.row(k)]) <= 0;
+  });
   if (level) return;
   offset_hi = arena.take<double>(n);
   offset_lo = arena.take<double>(n);
-  constexpr Index at_once = 64;  // terms that do not wait for a sum to be tidy
-  RunningSum sum;
-  offset_hi[0] = offset_lo[0] = 0;
-  for (Index first = 0; first < n; first += at_once) {
-    const Index end = std::min(first + at_once, n);
-    const auto add_up = [&](const auto bound_below) {
-      for (Index k = std::max(first, Index{1}); k < end; ++k) {
-        sum.add(bound_below(k));
-        offset_hi[k] = sum.hi;
-        offset_lo[k] = sum.lo;
-      }
-    };
-    if (order.plain)
-      add_up([bounds = s, row = order](Index k) { return bounds[row.row(k)]; });
-    else
-      add_up([this](Index k) { return bound(k); });
-    chain_kernels::make_tidy(end - first, offset_hi + first, offset_lo + first);
-    farthest_offset = std::max(farthest_offset, dense_kernels().largest_size(end - first, offset_hi + first));
-    const DoubleDouble tidy = sum.tidy();
-    sum = {tidy.hi, tidy.lo};
-  }
+  order.each_string(n, [&](Index begin, Index string_end) {
+    constexpr Index at_once = 64;  // terms that do not wait for a sum to be tidy
+    RunningSum sum;
+    offset_hi[begin] = offset_lo[begin] = 0;
+    for (Index first = begin; first < string_end; first += at_once) {
+      const Index end = std::min(first + at_once, string_end);
+      const auto add_up = [&](const auto bound_below) {
+        for (Index k = std::max(first, begin + 1); k < end; ++k) {
+          sum.add(bound_below(k));
+          offset_hi[k] = sum.hi;
+          offset_lo[k] = sum.lo;
+        }
+      };
+      if (order.plain)
+        add_up([bounds = s, row = order](Index k) { return bounds[row.row(k)]; });
+      else
+        add_up([this](Index k) { return bound(k); });
+      chain_kernels::make_tidy(end - first, offset_hi + first, offset_lo + first);
+      farthest_offset =
+          std::max(farthest_offset, dense_kernels().largest_size(end - first, offset_hi + first));
+      const DoubleDouble tidy = sum.tidy();
+      sum = {tidy.hi, tidy.lo};
+    }
+  });
   total_mass = problem.A.diagonal().sum();
 }
 
@@ -152,20 +157,26 @@ std::vector<int> pool(const Chain<Order>& chain, Arena& arena) {
 }
 
 template <class Order>
-std::vector<int> pool_carefully(const Chain<Order>& chain) {
-  const auto room = std::make_unique_for_overwrite<Pool<RunningSum>[]>(at(chain.n));
-  return pool_members(chain.n, room.get(), [&](Index k) {
-    const DoubleDouble load = chain.load(k);
+std::vector<int> pool_carefully(const Chain<Order>& chain, Index begin, Index end,
+                                const std::function<DoubleDouble(Index)>& load) {
+  const auto room = std::make_unique_for_overwrite<Pool<RunningSum>[]>(at(end - begin));
+  std::vector<int> first = pool_members(end - begin, room.get(), [&](Index member) {
+    const Index k = begin + member;
+    const DoubleDouble own = load(k);
     return Pool<RunningSum>{
-        static_cast<int>(k), {chain.mass[chain.order.coordinate(k)], 0}, {load.hi, load.lo}};
+        static_cast<int>(k), {chain.mass[chain.order.coordinate(k)], 0}, {own.hi, own.lo}};
   });
+  first.back() = static_cast<int>(end);
+  return first;
 }
 
 template struct Chain<InOrder>;
 template struct Chain<Listed>;
 template std::vector<int> pool(const Chain<InOrder>&, Arena&);
 template std::vector<int> pool(const Chain<Listed>&, Arena&);
-template std::vector<int> pool_carefully(const Chain<InOrder>&);
-template std::vector<int> pool_carefully(const Chain<Listed>&);
+template std::vector<int> pool_carefully(const Chain<InOrder>&, Index, Index,
+                                         const std::function<DoubleDouble(Index)>&);
+template std::vector<int> pool_carefully(const Chain<Listed>&, Index, Index,
+                                         const std::function<DoubleDouble(Index)>&);
 
 }  // namespace convex::inline isotonic

@@ -6,6 +6,7 @@
 
 #include "convex/dense/arena.hpp"
 #include "convex/double_double.hpp"
+#include "convex/nearest_point/isotonic/exact_rise.hpp"
 #include "convex/nearest_point/isotonic/strings.hpp"
 
 namespace convex::inline isotonic {
@@ -21,12 +22,16 @@ struct InOrder {
   Index coordinate(Index k) const { return k; }
   Index row(Index k) const { return k - 1 + floor; }
   double factor(Index k) const { return value[2 * k - 1 + floor]; }
+  template <class Work>
+  void each_string(Index n, Work work) const {
+    work(Index{0}, n);
+  }
 };
 
 /// None when the rows stand otherwise, or when the problem is no chain.
 std::optional<InOrder> in_order(const NearestPointProblem&);
 
-/// A chain in any order.
+/// A chain in any order, or strings one after the other.
 struct Listed {
   const Strings& strings;
   const SparseRows& U;
@@ -34,10 +39,16 @@ struct Listed {
   Index coordinate(Index k) const { return strings.coordinate[at(k)]; }
   Index row(Index k) const { return strings.row[at(k)]; }
   double factor(Index k) const { return std::abs(U.valuePtr()[U.outerIndexPtr()[row(k)]]); }
+  template <class Work>
+  void each_string(Index, Work work) const {
+    for (std::size_t t = 0; t + 1 < strings.first.size(); ++t)
+      work(Index{strings.first[t]}, Index{strings.first[t + 1]});
+  }
 };
 
 /// A chain, bottom to top, as pooling sees it: member k is coordinate order.coordinate(k), the row below it
-/// order.row(k), -1 for none, with the factor order.factor(k).
+/// order.row(k), -1 for none, with the factor order.factor(k). Or strings: of the first of each the row below
+/// is its floor.
 template <class Order>
 struct Chain {
   /// Numbers of all members stand in the arena.
@@ -46,17 +57,26 @@ struct Chain {
   static Index lines(Index n) { return 5 * padded(n) / 8 + 1; }
   /// s/c of the row below member k.
   DoubleDouble bound(Index k) const;
-  /// The linear term of member k in the coordinates y that pools have in common.
-  DoubleDouble load(Index k) const {
-    const Index i = order.coordinate(k);
-    const DoubleDouble plain{linear[i], 0};
-    return is_level() ? plain : add(plain, negative(product({offset_hi[k], offset_lo[k]}, mass[i])));
+  /// What a linear term of member k becomes in the coordinates y that pools have in common.
+  DoubleDouble lowered(Index k, DoubleDouble term) const {
+    return is_level() ? term : add(term, negative(product(offset(k), mass[order.coordinate(k)])));
   }
   bool is_level() const { return !offset_hi; }
+  DoubleDouble offset(Index k) const {
+    return is_level() ? DoubleDouble{} : DoubleDouble{offset_hi[k], offset_lo[k]};
+  }
+  /// As fractions want them; of the chain, which is referred to.
+  StringMembers members() const {
+    return [this](Index k) {
+      const Index i = order.coordinate(k), below = order.row(k);
+      return below < 0 ? StringMember{mass[i], linear[i], 1, 0}
+                       : StringMember{mass[i], linear[i], order.factor(k), s[below]};
+    };
+  }
   Index n;
   const double *mass, *linear, *s;
   Order order;
-  double *offset_hi = nullptr, *offset_lo = nullptr;  ///< of a member over the first; none when all are 0
+  double *offset_hi = nullptr, *offset_lo = nullptr;  ///< over the first of the string; none when all are 0
   double farthest_offset = 0, total_mass = 0;         ///< |offset| at most, and Σ m, where there are offsets
 };
 
@@ -64,8 +84,10 @@ struct Chain {
 template <class Order>
 std::vector<int> pool(const Chain<Order>&, Arena&);
 
-/// The same with sums in twice the precision, which are compared in that precision where doubles do not tell.
+/// The same of the members begin … end - 1, with loads and sums in twice the precision, which are compared in
+/// that precision where doubles do not tell. Then `end`.
 template <class Order>
-std::vector<int> pool_carefully(const Chain<Order>&);
+std::vector<int> pool_carefully(const Chain<Order>&, Index begin, Index end,
+                                const std::function<DoubleDouble(Index)>& load);
 
 }  // namespace convex::inline isotonic

@@ -3,53 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/nearest_point/isotonic/chain_pools.hpp"
-#include "convex/nearest_point/isotonic/exact_rise.hpp"
+#include "convex/nearest_point/isotonic/chain_answer.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline isotonic {
-namespace {}  // namespace
 
 Pooling::Pooling(const NearestPointProblem& problem, const Strings& strings)
-    : mass_(problem.A.diagonal()),
-      U_(problem.U.sparse()),
-      s_(problem.s),
-      strings_(strings),
+    : strings_(strings),
+      chain_(problem, Listed{strings, problem.U.sparse()},
+             (arena_.start(Chain<Listed>::lines(problem.dimension())), arena_)),
       q_(problem.dimension()),
       lambda_(Vector::Zero(problem.rows())) {
-  find_offsets();
+  chain_.order.each_string(chain_.n, [&](Index first, Index) {
+    floor_.push_back(chain_.order.row(first) >= 0 ? chain_.bound(first).hi : -INFINITY);
+  });
   find_parts(problem);
   pools_.reserve(parts_.size());
 }
 
-double Pooling::factor(int row) const { return std::abs(U_.valuePtr()[U_.outerIndexPtr()[row]]); }
-
-DoubleDouble Pooling::bound(int row) const {
-  const double c = factor(row);
-  if (c == 1) return {s_[row], 0};
-  return quotient({s_[row], 0}, {c, 0});
-}
-
-void Pooling::find_offsets() {
-  bool level = true;
-  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t) {
-    const int first = strings_.first[t], floor = floor_of(first);
-    floor_.push_back(floor >= 0 ? bound(floor).hi : -INFINITY);
-    for (int k = first + 1; k < strings_.first[t + 1]; ++k)
-      level = level && std::abs(s_[strings_.row[at(k)]]) <= 0;
-  }
-  if (level) return;
-  offset_.resize(strings_.coordinate.size());
-  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t)
-    for (int k = strings_.first[t] + 1; k < strings_.first[t + 1]; ++k)
-      offset_[at(k)] = add(offset_[at(k - 1)], bound(strings_.row[at(k)]));
-  for (const DoubleDouble& offset : offset_)
-    farthest_offset_ = std::max(farthest_offset_, std::abs(offset.hi));
-}
-
 Pooling::Pool Pooling::member(int k, const Vector& linear) const {
   Pool pool{k, k + 1, mass(k), linear[strings_.coordinate[at(k)]], 0};
-  if (!offset_.empty()) pool.sum -= offset_[at(k)].hi * pool.weight;
+  if (!chain_.is_level()) pool.sum -= chain_.offset_hi[k] * pool.weight;
   pool.mean = pool.sum / pool.weight;
   return pool;
 }
@@ -70,7 +44,7 @@ void Pooling::put(std::vector<Pool>& pools, std::size_t bottom, Pool pool) {
 void Pooling::find_parts(const NearestPointProblem& problem) {
   std::vector<bool> moves(strings_.coordinate.size(), false);
   for (Index a : strings_.border)
-    for (SparseRows::InnerIterator it(U_, a); it; ++it) moves[at(it.col())] = true;
+    for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it) moves[at(it.col())] = true;
   std::vector<Pool> between;
   const auto end_part = [&] {
     parts_.insert(parts_.end(), between.begin(), between.end());
@@ -106,12 +80,12 @@ void Pooling::pool(const Vector& linear) {
 }
 
 void Pooling::place(Vector& q) const {
-  q.resize(mass_.size());
+  q.resize(chain_.n);
   for (std::size_t t = 0; t + 1 < first_pool_.size(); ++t)
     for (std::size_t p = first_pool_[t]; p < first_pool_[t + 1]; ++p) {
       const double level = std::max(pools_[p].mean, floor_[t]);
       for (int k = pools_[p].begin; k < pools_[p].end; ++k)
-        q[strings_.coordinate[at(k)]] = offset_.empty() ? level : level + offset_[at(k)].hi;
+        q[strings_.coordinate[at(k)]] = chain_.is_level() ? level : level + chain_.offset_hi[k];
     }
 }
 
@@ -123,8 +97,7 @@ bool Pooling::is_lifted(std::size_t pool) const {
 
 DoubleDouble Pooling::load(int k, const Vector& linear, const Vector& rest) const {
   const int i = strings_.coordinate[at(k)];
-  const DoubleDouble push{linear[i], rest.size() > 0 ? rest[i] : 0};
-  return offset_.empty() ? push : add(push, negative(product(offset_[at(k)], mass_[i])));
+  return chain_.lowered(k, {linear[i], rest.size() > 0 ? rest[i] : 0});
 }
 
 Pooling::Sums Pooling::sums(const Pool& pool, const Vector& linear, const Vector& rest) const {
@@ -141,26 +114,15 @@ Pooling::Sums Pooling::sums(const Pool& pool, const Vector& linear, const Vector
 void Pooling::pool_carefully(const Vector& linear, const Vector& rest) {
   pools_.clear();
   first_pool_.clear();
-  std::vector<Sums> stack;
-  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t) {
+  chain_.order.each_string(chain_.n, [&](Index begin, Index end) {
     first_pool_.push_back(pools_.size());
-    stack.clear();
-    for (int k = strings_.first[t]; k < strings_.first[t + 1]; ++k) {
-      Pool pool{k, k + 1, 0, 0, 0};
-      Sums exact{{mass(k), 0}, load(k, linear, rest), {}};
-      exact.mean = quotient(exact.sum, exact.weight);
-      while (!stack.empty() && !less(stack.back().mean, exact.mean)) {
-        exact.weight = add(stack.back().weight, exact.weight);
-        exact.sum = add(stack.back().sum, exact.sum);
-        exact.mean = quotient(exact.sum, exact.weight);
-        pool.begin = pools_.back().begin;
-        stack.pop_back();
-        pools_.pop_back();
-      }
-      pools_.push_back({pool.begin, pool.end, exact.weight.hi, exact.sum.hi, exact.mean.hi});
-      stack.push_back(exact);
+    const std::vector<int> first = convex::pool_carefully(
+        chain_, begin, end, [&](Index k) { return load(static_cast<int>(k), linear, rest); });
+    for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+      const Sums exact = sums({first[p], first[p + 1], 0, 0, 0}, linear, rest);
+      pools_.push_back({first[p], first[p + 1], exact.weight.hi, exact.sum.hi, exact.mean.hi});
     }
-  }
+  });
   first_pool_.push_back(pools_.size());
 }
 
@@ -180,20 +142,20 @@ bool Pooling::place_all(const Vector& linear, const Vector& rest, bool careful) 
 /// rounding.
 bool Pooling::place_string(const Vector& linear, const Vector& rest, bool careful, std::size_t string) {
   const std::size_t first = first_pool_[string], end = first_pool_[string + 1];
-  const int floor = floor_of(strings_.first[string]), last_member = strings_.first[string + 1];
+  const int begin = strings_.first[string], last_member = strings_.first[string + 1];
   std::size_t lifted = first;  // pools below the floor end here
   RunningSum push;             // what the rows below push up with
   double largest = 0;
   DoubleDouble least{};
-  if (floor >= 0) {
-    least = bound(floor);
+  if (const Index floor = chain_.order.row(begin); floor >= 0) {
+    least = chain_.bound(begin);
     for (; lifted < end; ++lifted) {
       const Sums exact = sums(pools_[lifted], linear, rest);
       if (!less(exact.mean, least)) break;
       push.add(add(product_of_pairs(exact.weight, least), negative(exact.sum)));
     }
     largest = push.hi;
-    lambda_[floor] = std::max(0.0, push.value() / factor(floor));
+    lambda_[floor] = std::max(0.0, push.value() / chain_.order.factor(begin));
   }
   DoubleDouble previous{-INFINITY, 0};
   for (std::size_t p = first; p < end; ++p) {
@@ -204,19 +166,20 @@ bool Pooling::place_string(const Vector& linear, const Vector& rest, bool carefu
     if (p < lifted) level = least;
     for (int k = pool.begin; k < pool.end; ++k) {
       const int i = strings_.coordinate[at(k)];
-      const DoubleDouble x = offset_.empty() ? level : add(level, offset_[at(k)]);
+      const DoubleDouble x = chain_.is_level() ? level : add(level, chain_.offset(k));
       q_.hi[i] = x.hi;
       q_.lo[i] = x.lo;
-      const DoubleDouble inertia = product(x, mass_[i]);
+      const DoubleDouble inertia = product(x, mass(k));
       push.add(DoubleDouble{linear[i], rest.size() > 0 ? rest[i] : 0});
       push.add(negative(inertia));
       largest = std::max({largest, std::abs(push.hi), std::abs(inertia.hi)});
       if (k + 1 == last_member) break;
-      const int above = strings_.row[at(k + 1)];
+      const Index above = chain_.order.row(k + 1);
       const bool loaded = k + 1 < pool.end || p + 1 < lifted;
       const double pushed = push.value();
       if (loaded && pushed < -zero_of_long_sums * largest && !careful) return false;
-      lambda_[above] = loaded && pushed > zero_of_long_sums * largest ? pushed / factor(above) : 0;
+      lambda_[above] =
+          loaded && pushed > zero_of_long_sums * largest ? pushed / chain_.order.factor(k + 1) : 0;
     }
     if (p + 1 >= lifted) {
       push = {};
@@ -226,26 +189,22 @@ bool Pooling::place_string(const Vector& linear, const Vector& rest, bool carefu
   return true;
 }
 
-double Pooling::farthest_offset() const { return farthest_offset_ * std::sqrt(mass_.sum()); }
+double Pooling::rounding() const { return rounding_of_pools(chain_, 0); }
 
-std::optional<int> Pooling::rise_below(int k, const Vector& z, const Vector& linear,
-                                       const Vector& rest) const {
+std::optional<int> Pooling::rise_below(int k, const Vector& linear, const Vector& rest) const {
   const auto begins_after = [](int place, const Pool& pool) { return place < pool.begin; };
   const auto pool = std::upper_bound(pools_.begin(), pools_.end(), k, begins_after) - 1;
   if (pool->begin != k) return 0;
   const Index first = *(std::upper_bound(strings_.first.begin(), strings_.first.end(), k) - 1);
-  const bool has_floor = floor_of(static_cast<int>(first)) >= 0;
+  const bool has_floor = chain_.order.row(first) >= 0;
   const auto feels_z_alone = [&](const Pool& members) {
     for (int j = members.begin; j < members.end; ++j) {
       const int i = strings_.coordinate[at(j)];
-      if (linear[i] != z[i] || rest[i] != 0) return false;
+      if (linear[i] != chain_.linear[i] || rest[i] != 0) return false;
     }
     return true;
   };
-  const StringMembers member = [&](Index j) {
-    const int i = strings_.coordinate[at(j)], row = strings_.row[at(j)];
-    return row < 0 ? StringMember{mass_[i], z[i], 1, 0} : StringMember{mass_[i], z[i], factor(row), s_[row]};
-  };
+  const StringMembers member = chain_.members();
   if (!feels_z_alone(*pool)) return std::nullopt;
   if (k == first) return rise_over_floor(member, first, k, pool->end);
   const Pool& below = *(pool - 1);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "convex/double_double.hpp"
-#include "convex/nearest_point/isotonic/strings.hpp"
+#include "convex/nearest_point/isotonic/chain_pools.hpp"
 
 namespace convex::inline isotonic {
 
@@ -31,12 +30,11 @@ class Pooling {
   const std::vector<Pool>& pools() const { return pools_; }
   /// Whether a pool stands on the floor of its string.
   bool is_lifted(std::size_t pool) const;
-  /// The length in the norm of A of all members moved by the largest sum of bounds below one: what pairs
-  /// round is a part of it.
-  double farthest_offset() const;
+  /// What the rounding of sums of bounds in twice the precision makes of q, in the norm of A.
+  double rounding() const;
   /// The sign of the slack of the row below place k among the strings, without rounding, at the pools found;
   /// none where their linear term is not z, or fractions take too long.
-  std::optional<int> rise_below(int k, const Vector& z, const Vector& linear, const Vector& rest) const;
+  std::optional<int> rise_below(int k, const Vector& linear, const Vector& rest) const;
   /// After `refine`: n.
   const DoubleDoubleVector& q() const { return q_; }
   /// After `refine`: m, 0 on border rows.
@@ -46,11 +44,7 @@ class Pooling {
   struct Sums {
     DoubleDouble weight, sum, mean;
   };
-  double mass(int k) const { return mass_[strings_.coordinate[static_cast<std::size_t>(k)]]; }
-  double factor(int row) const;
-  DoubleDouble bound(int row) const;
-  int floor_of(int first) const { return strings_.row[static_cast<std::size_t>(first)]; }
-  void find_offsets();
+  double mass(int k) const { return chain_.mass[chain_.order.coordinate(k)]; }
   void find_parts(const NearestPointProblem&);
   Pool member(int k, const Vector& linear) const;
   static void put(std::vector<Pool>& pools, std::size_t bottom, Pool pool);
@@ -60,12 +54,9 @@ class Pooling {
   DoubleDouble load(int k, const Vector& linear, const Vector& rest) const;
   Sums sums(const Pool&, const Vector& linear, const Vector& rest) const;
 
-  const Vector& mass_;
-  const SparseRows& U_;
-  const Vector& s_;
   const Strings& strings_;
-  std::vector<DoubleDouble> offset_;  ///< of a member over the first of its string; empty when all are 0
-  double farthest_offset_ = 0;
+  Arena arena_;
+  const Chain<Listed> chain_;            ///< of all strings
   std::vector<double> floor_;            ///< the bound of a string's floor, -inf for none
   std::vector<std::size_t> first_pool_;  ///< of each string, and their number
   std::vector<Pool> parts_;              ///< pools of what stays between the border's coordinates, and those
