@@ -155,6 +155,12 @@ struct Metric::Data {
   double factor_condition = 1;
 
   static bool is_small(const Data& data) { return data.W.rows() <= 300; }  // 1.5 MB
+
+  /// w_ii / L_ii².
+  double pivot_loss(Index i) const {
+    const double over = triangle.inverse()[i / 8 * 128 + i % 8 * 9];
+    return std::abs(diagonal[i] * over * over);
+  }
 };
 
 Metric Metric::identity(Index n) {
@@ -190,15 +196,25 @@ Metric Metric::dense(const Matrix& W) {
   }
   data->diagonal = data->W.diagonal();
   data->triangle.factor();
-  const double* const inverse = data->triangle.inverse();
-  double largest = 1;  // of w_ii / L_ii²
+  double largest = 1;
   for (Index i = 0; i < n; ++i) {
-    const double over = inverse[i / 8 * 128 + i % 8 * 9],
-                 relative = std::abs(data->diagonal[i] * over * over);
-    if (!(relative * (pivot_roundings * unit_roundoff * static_cast<double>(n)) < 1))
+    const double loss = data->pivot_loss(i);
+    if (!(loss * (pivot_roundings * unit_roundoff * static_cast<double>(n)) < 1))
       refuse_indefinite(data->diagonal);
-    largest = std::max(largest, relative);
+    largest = std::max(largest, loss);
   }
+  data->factor_condition = std::sqrt(largest);
+  return Metric(std::move(data));
+}
+
+Metric Metric::dense(const Matrix& W, const Matrix& L) {
+  auto data = std::make_shared<Data>();
+  data->kind = MetricKind::dense;
+  data->W = W;
+  data->diagonal = W.diagonal();
+  data->triangle.take_factor(L);
+  double largest = 1;
+  for (Index i = 0; i < W.rows(); ++i) largest = std::max(largest, data->pivot_loss(i));
   data->factor_condition = std::sqrt(largest);
   return Metric(std::move(data));
 }

@@ -30,6 +30,10 @@ class Metric {
   /// Throws InvalidInput when W is not square, not finite, not symmetric (entries may differ by rounding: 8
   /// units in the last place; their mean is then meant), or not positive definite to working precision.
   static Metric dense(const Matrix& W);
+  /// The same of a W whose factor is known, W = L Lᵀ but for the rounding of W: for one that is positive
+  /// definite by less than its rounding in doubles, which `dense(W)` cannot tell. W and L: n×n, finite, W
+  /// symmetric, L lower with a positive diagonal.
+  static Metric dense(const Matrix& W, const Matrix& L);
   static Metric sparse(const SparseMatrix& W);
 
   /// factor W, factor > 0. A step of a prox is a metric: W / gamma.

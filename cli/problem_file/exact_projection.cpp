@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/problem_file/numbers.hpp"
+#include "convex/exact/positive_definite.hpp"
 
 namespace cli::inline problem_files {
 namespace {
@@ -82,6 +83,30 @@ convex::DataRadii rounded_rows(const TomlValue& table, const convex::NearestPoin
   clear("U", radii.row);
   clear("s", radii.s);
   return radii;
+}
+
+std::optional<convex::Metric> metric_as_written(const TomlValue& A, const MetricKey& key) {
+  try {
+    ExactRows rows;
+    if (A.kind != TomlValue::Kind::table) {
+      rows = read_exact_matrix(A, key.key, key.n, key.why);
+    } else if (const TomlValue* file = A.find("matrix_market")) {
+      rows =
+          convex::exact_rows(convex::Matrix(read_matrix_file(*file, key.key, key.directory, key.n, key.n)));
+    }
+    if (static_cast<Index>(rows.size()) != key.n) return std::nullopt;
+    const convex::ExactProblem exact = convex::exact_problem_of_definite(
+        rows, convex::exact_vector(convex::Vector(convex::Vector::Zero(key.n))), {}, {}, {});
+    const auto L = convex::cholesky_factor(exact.A, convex::most_word_operations);
+    if (!L) return std::nullopt;
+    convex::Matrix W(key.n, key.n);
+    for (Index i = 0; i < key.n; ++i) W.col(i) = convex::nearest({exact.A[convex::at(i)], exact.unit});
+    const convex::Matrix factor = *L / std::sqrt(convex::nearest_quotient(exact.unit, 1));
+    const bool is_ordinary = W.allFinite() && factor.allFinite() && factor.diagonal().minCoeff() > 0x1p-500;
+    return is_ordinary ? std::optional(convex::Metric::dense(W, factor)) : std::nullopt;
+  } catch (const convex::InvalidInput&) {
+    return std::nullopt;
+  }
 }
 
 convex::ExactProblem read_exact_projection(const TomlValue& table,

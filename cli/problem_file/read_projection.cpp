@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "cli/problem_file/exact_projection.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/read_metric.hpp"
@@ -46,6 +47,15 @@ std::vector<Index> row_indices(const TomlValue* value, Index m) {
   return rows;
 }
 
+convex::Metric read_inertia(const TomlValue& A, const MetricKey& key) {
+  try {
+    return read_metric(A, key);
+  } catch (const InvalidInput&) {
+    if (std::optional<convex::Metric> metric = metric_as_written(A, key)) return *std::move(metric);
+    throw;
+  }
+}
+
 }  // namespace
 
 ProjectionProblem read_projection(const TomlValue& table, const std::string& directory) {
@@ -70,7 +80,7 @@ ProjectionProblem read_projection(const TomlValue& table, const std::string& dir
                            std::to_string(rows.count()) + ", one per row of U",
                        s == nullptr ? table.place : s->place);
   try {
-    return {{read_metric(*A, {"projection", "A", directory, n, "one per entry of z"}), force, rows, bound,
+    return {{read_inertia(*A, {"projection", "A", directory, n, "one per entry of z"}), force, rows, bound,
              row_indices(table.find("two_sided"), rows.count())}};
   } catch (const InvalidInput& error) {
     throw InvalidInput(error.what(), error.place().value_or(A->place));

@@ -46,4 +46,9 @@ void PaddedTriangle::factor() {
   dense_kernels().invert_blocks(n_, ld_, T_, T_ + ld_ * ld_);
 }
 
+void PaddedTriangle::take_factor(const Matrix& L) {
+  take(L.selfadjointView<Eigen::Lower>());
+  dense_kernels().invert_blocks(n_, ld_, T_, T_ + ld_ * ld_);
+}
+
 }  // namespace convex::inline dense

@@ -15,6 +15,8 @@ class PaddedTriangle {
   /// another of that size.
   bool take(const Matrix& W);
   void factor();
+  /// The factor itself, lower, with a positive diagonal.
+  void take_factor(const Matrix& L);
 
   Index ld() const { return ld_; }
   const double* T() const { return T_; }

@@ -6,7 +6,6 @@
 
 #include "convex/exact/elimination.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
-#include "convex/vector.hpp"
 
 namespace convex::inline exact_arithmetic {
 namespace {
@@ -92,10 +91,14 @@ bool dominant_diagonal(const IntegerRows& A, const IntegerRows& X) {
   return true;
 }
 
-bool leading_minors_positive(IntegerRows A) {
+/// Bareiss' elimination: whether all leading minors are positive; column(k, A, last) sees the entries below
+/// pivot k, the minor, and the minor before it.
+template <class Column>
+bool leading_minors_positive(IntegerRows A, Column column) {
   Integer last = 1;
   for (std::size_t k = 0; k < A.size(); ++k) {
     if (A[k][k].sign() <= 0) return false;
+    column(k, A, last);
     for (std::size_t i = k + 1; i < A.size(); ++i)
       for (std::size_t j = k + 1; j <= i; ++j)
         A[i][j] = exact_quotient(A[k][k] * A[i][j] - A[i][k] * A[j][k], last);
@@ -117,7 +120,24 @@ bool is_positive_definite(const IntegerRows& A) {
       if (X.allFinite() && dominant_diagonal(A, rounded_rows(X, root))) return true;
     }
   }
-  return leading_minors_positive(A);
+  return leading_minors_positive(A, [](std::size_t, const IntegerRows&, const Integer&) {});
+}
+
+std::optional<Matrix> cholesky_factor(const IntegerRows& A, double most) {
+  std::size_t bits = 0;
+  for (const IntegerVector& row : A)
+    for (const Integer& entry : row) bits = std::max(bits, entry.bits());
+  const auto n = static_cast<double>(A.size());
+  const double words = 1 + n * static_cast<double>(bits) / (2 * 64);  // of an entry half way
+  if (n * n * n / 3 * words * words > most) return std::nullopt;
+  Matrix L = Matrix::Zero(static_cast<Index>(A.size()), static_cast<Index>(A.size()));
+  const auto keep = [&](std::size_t k, const IntegerRows& left, const Integer& last) {
+    const double pivot = std::sqrt(nearest_quotient(left[k][k], last));
+    for (std::size_t i = k; i < A.size(); ++i)
+      L(static_cast<Index>(i), static_cast<Index>(k)) = nearest_quotient(left[i][k], left[k][k]) * pivot;
+  };
+  if (!leading_minors_positive(A, keep)) return std::nullopt;
+  return L;
 }
 
 }  // namespace convex::inline exact_arithmetic

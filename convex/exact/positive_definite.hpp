@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "convex/exact/integer.hpp"
+#include "convex/vector.hpp"
 
 namespace convex::inline exact_arithmetic {
 
@@ -8,5 +11,11 @@ namespace convex::inline exact_arithmetic {
 /// in doubles, for which X A Xᵀ, computed without rounding, has a dominant positive diagonal (Gershgorin);
 /// where that does not come out, by the signs of all leading minors (Bareiss 1968).
 bool is_positive_definite(const IntegerRows& A);
+
+/// The factor L of the symmetric integer matrix A = L Lᵀ, lower, its entries rounded from their exact values:
+/// by Bareiss' elimination l_ik = a_ik / sqrt(d_k d_(k-1)), a_ik the entries left after k - 1 steps, d_k the
+/// leading minors. However nearly singular A is. None where A is not positive definite, or where that would
+/// take more than `most` word operations by an estimate beforehand.
+std::optional<Matrix> cholesky_factor(const IntegerRows& A, double most);
 
 }  // namespace convex::inline exact_arithmetic

@@ -164,3 +164,44 @@ TEST_CASE("a force of 1e-14 beside a weight of 10 presses on a wall, and no warn
   // What rounding made of 0 is not told from it.
   CHECK(wall("sin(pi)", "--ranges") == "touches");
 }
+
+namespace {
+
+Outcome solve_by(const std::string& method, const std::string& A, const std::string& z,
+                 const std::string& s) {
+  return run_json_on("solve", two_rows({{2, "A = " + A},
+                                        {3, "z = " + z},
+                                        {4, "U = [[1, 1]]"},
+                                        {5, "s = [" + s + "]"},
+                                        {7, "[solve]\nmethod = \"" + method + "\""}}));
+}
+
+}  // namespace
+
+TEST_CASE("the exact method takes an A at its exact value that is definite by less than doubles can tell") {
+  // det A = 1e-27; A (3, 0) = z, and 3 >= 0.
+  const Outcome outcome = solve_by(
+      "exact", R"([["1", "1/3"], ["1/3", "1000000000000000000000000009/9000000000000000000000000000"]])",
+      "[3, 1]", "0");
+  const Json object = Json::parse(outcome.out);
+  CAPTURE(outcome.out);
+  CHECK(object.at("exact").at("acceleration").at("q[0]") == "3");
+  CHECK(object.at("exact").at("acceleration").at("q[1]") == "0");
+  CHECK(object.at("status") == "solved");
+}
+
+TEST_CASE("an A of doubles definite by one unit in the last place is solved, a singular one refused") {
+  const auto A = [](const std::string& last) { return "[[1, 1], [1, " + last + "]]"; };
+  // A⁻¹z = (1 - e, e) / e, e = 2^-52: q0 + q1 = 1 < 3, so that lambda = 2 lifts the first entry by 2.
+  for (const char* method : {"auto", "exact", "active-set", "lemke", "interior-point"}) {
+    CAPTURE(std::string(method));
+    const Outcome outcome = solve_by(method, A("1.0000000000000002"), "[1, 2]", "3");
+    REQUIRE(outcome.code == 0);
+    const Json object = Json::parse(outcome.out);
+    CHECK(object.at("acceleration").at("q[1]") == 0x1p52);
+    CHECK(object.at("acceleration").at("q[0]") == 3 - 0x1p52);
+    CHECK(object.at("multipliers").at("c[0]") == 2);
+  }
+  for (const char* singular : {"1", "0.9999999999999999"})
+    CHECK(solve_by("exact", A(singular), "[1, 2]", "3").code == 2);
+}

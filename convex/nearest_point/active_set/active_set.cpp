@@ -306,8 +306,9 @@ class DualActiveSet {
   Solution answer(const RefinedPoint& refined, bool finished) {
     if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
     const std::string_view open =
-        finished ? decide_degenerate_rows(set_, refined.q, row_scale_, slack_) : open_question::conditioning;
-    const double outside = open.empty() ? 0 : finished && !flat_vertex_ ? left_outside_ : infinity;
+        finished ? decide_degenerate_rows(set_, refined, row_scale_, slack_) : open_question::conditioning;
+    const bool is_kept = open.empty() || open == open_question::zero_slacks;
+    const double outside = is_kept ? 0 : finished && !flat_vertex_ ? left_outside_ : infinity;
     Solution solution = certified_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
     solution.undecided = open;
     return solution;

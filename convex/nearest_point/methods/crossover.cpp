@@ -59,7 +59,9 @@ class Crossover {
     }
     raw.error_bound = held.error_bound + problem_.A.norm(q - held.q);
     held.polished = q != held.q;
-    return with_status(candidate_.may_polish && accuracy_.polish && held.polished ? held : raw);
+    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
+    raw.slack = held.slack;  // with the signs that are proved
+    return with_status(held.polished ? held : raw);
   }
 
   std::optional<Solution> infeasible(const Vector& weights) {

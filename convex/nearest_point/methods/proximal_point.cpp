@@ -62,6 +62,7 @@ Vector AugmentedLagrangian::multipliers() const {
 bool AugmentedLagrangian::newton_step(bool damped) {
   const std::vector<Index> rows = active();
   if (rows != factored_ || theta != factored_theta_) {
+    factored_theta_ = 0;  // where the factor breaks down, none is kept
     if (!kkt_.factor(rows, Vector::Constant(static_cast<Index>(rows.size()), theta))) return false;
     factored_ = rows;
     factored_theta_ = theta;

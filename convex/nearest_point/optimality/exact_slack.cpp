@@ -226,6 +226,29 @@ std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const P
                                                                  : std::nullopt;
 }
 
+bool is_in_balance(const NearestPointProblem& problem, const Point& q, const DoubleDoubleVector& lambda) {
+  const Metric& A = problem.A;
+  std::vector<ExactSum> rest(at(q.size()));
+  for (Index i = 0; i < q.size(); ++i) rest[at(i)].add(problem.z[i]);
+  const auto subtract = [&](Index i, Index j, double a_ij) { rest[at(i)].add_product(-a_ij, q[j]); };
+  for (Index j = 0; j < q.size(); ++j) {
+    if (A.kind() == MetricKind::dense)
+      for (Index i = 0; i < q.size(); ++i) subtract(i, j, A.dense_gram()(i, j));
+    else if (A.kind() == MetricKind::sparse)
+      for (SparseMatrix::InnerIterator it(A.sparse_gram(), j); it; ++it) subtract(it.row(), j, it.value());
+    else
+      subtract(j, j, A.diagonal()[j]);
+  }
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (lambda.hi[a] == 0) continue;
+    problem.U.for_each_entry(a, [&](Index i, double u) {
+      rest[at(i)].add_product(u, lambda.hi[a]);
+      rest[at(i)].add_product(u, lambda.lo[a]);
+    });
+  }
+  return std::all_of(rest.begin(), rest.end(), [](const ExactSum& sum) { return sum.sign() == 0; });
+}
+
 double quotient_with_sign(const ExactSum& sum, double divisor) {
   const double size = std::max(std::abs(sum.value() / divisor), std::numeric_limits<double>::denorm_min());
   return sum.sign() * std::copysign(size, divisor);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "convex/double_double.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/nearest_point/problem.hpp"
 
@@ -55,6 +56,9 @@ bool keeps_rows(const NearestPointProblem&, const Point& q, std::span<const Inde
 /// The slacks; none where q does not keep the rows.
 std::optional<Vector> slacks_if_kept(const NearestPointProblem&, const Point& q, std::span<const Index> held,
                                      std::span<const Index> degenerate);
+
+/// Aq = z + Uᵀlambda, without rounding. lambda: m.
+bool is_in_balance(const NearestPointProblem&, const Point& q, const DoubleDoubleVector& lambda);
 
 /// sum / divisor, rounded, and a double of its sign where that is 0 but the sum is not.
 double quotient_with_sign(const ExactSum& sum, double divisor);

@@ -91,7 +91,10 @@ bool GramSolve::keeps_close(Index count) {
 /// p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound (`moved_`), whatever the
 /// angles are at which the rows meet.
 GramSolve::Slacks GramSolve::decide_degenerate_rows(Index count) {
-  if (keeps_close(count)) {
+  // Of a point that is no vertex the rounding of q may have made a slack of 0: that is told with its last
+  // bits.
+  const auto is_told = [&](double slack) { return p_.size == p_.n || slack == 0; };
+  if (keeps_close(count) && std::all_of(p_.degenerate_slack, p_.degenerate_slack + count, is_told)) {
     for (Index k = 0; k < count; ++k) p_.slack[p_.close[k]] = p_.degenerate_slack[k];
     return Slacks::kept;
   }

@@ -33,26 +33,6 @@ std::vector<Index> rows_of(const NearestPointProblem& problem, const Solution& o
 /// Of the word operations that fractions may take, what they may for signs within the error bound.
 constexpr double part_for_zeros = 0.2;
 
-/// Aq = z + Uᵀlambda, without rounding; false for a sparse A, which is not looked at.
-bool is_in_balance(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
-  const Metric& A = problem.A;
-  if (A.kind() == MetricKind::sparse) return false;
-  std::vector<ExactSum> rest(static_cast<std::size_t>(q.size()));
-  for (Index i = 0; i < q.size(); ++i) {
-    ExactSum& sum = rest[at(i)];
-    sum.add(problem.z[i]);
-    if (A.kind() != MetricKind::dense) sum.add_product(-A.diagonal()[i], q[i]);
-    for (Index j = 0; A.kind() == MetricKind::dense && j < q.size(); ++j)
-      sum.add_product(-A.dense_gram()(i, j), q[j]);
-  }
-  for (Index a = 0; a < problem.rows(); ++a) {
-    if (lambda[a] == 0) continue;
-    const Vector u = problem.U.row(a);
-    for (Index i = 0; i < q.size(); ++i) rest[at(i)].add_product(u[i], lambda[a]);
-  }
-  return std::all_of(rest.begin(), rest.end(), [](const ExactSum& sum) { return sum.sign() == 0; });
-}
-
 /// The solution in fractions, rounded; none where that takes too many word operations.
 std::optional<Solution> in_fractions(const NearestPointProblem& problem, const Solution& open,
                                      const Accuracy& accuracy, double most, std::string_view why) {
@@ -115,6 +95,10 @@ std::optional<Solution> contradiction_of_few_rows(const NearestPointProblem& pro
 }
 
 Solution left_open(Solution open) {
+  if (open.undecided == open_question::zero_slacks) {
+    open.undecided = {};
+    return open;
+  }
   if (open.status == Status::solved) open.status = Status::inaccurate;
   if (open.status == Status::infeasible) open.status = Status::gave_up;
   return open;
@@ -129,9 +113,11 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
   if (open.undecided == open_question::conditioning &&
       open.error_bound <= few_ulps * open.acceleration_norm && open.status == Status::inaccurate)
     return open;
-  std::optional<Solution> found =
-      in_fractions(problem, open, accuracy, accuracy.limit * most_word_operations, open.undecided);
-  if (!found && accuracy.limit > 0) found = contradiction_of_few_rows(problem, open);
+  const bool is_within_bound = open.undecided == open_question::zero_slacks;
+  std::optional<Solution> found = in_fractions(
+      problem, open, accuracy, (is_within_bound ? part_for_zeros : 1) * accuracy.limit * most_word_operations,
+      open.undecided);
+  if (!found && !is_within_bound && accuracy.limit > 0) found = contradiction_of_few_rows(problem, open);
   return found ? *std::move(found) : left_open(std::move(open));
 }
 
@@ -180,7 +166,7 @@ bool has_open_zeros(const NearestPointProblem& problem, const Solution& solved) 
   // The point of the working set itself, and in balance with its multipliers, or a vertex.
   const bool is_vertex = static_cast<Index>(solved.basis.size()) == problem.dimension();
   return !slacks_if_kept(problem, solved.q, solved.basis, degenerate) ||
-         !(is_vertex || is_in_balance(problem, solved.q, solved.lambda));
+         !(is_vertex || is_in_balance(problem, solved.q, DoubleDoubleVector(solved.lambda)));
 }
 
 Solution with_signs_of_zeros(const NearestPointProblem& problem, Solution solved, const Accuracy& accuracy) {

@@ -12,6 +12,7 @@ namespace convex::inline proof {
 namespace open_question {
 inline constexpr std::string_view dependence = "whether rows depend on each other";
 inline constexpr std::string_view degenerate_rows = "whether rows that the point touches are kept";
+inline constexpr std::string_view zero_slacks = "whether rows that the point touches hold with equality";
 inline constexpr std::string_view contradiction = "whether rows contradict each other";
 inline constexpr std::string_view conditioning = "the digits of a nearly singular system";
 inline constexpr std::string_view range = "numbers whose squares are beyond them";
@@ -20,7 +21,8 @@ inline constexpr std::string_view range = "numbers whose squares are beyond them
 /// The answer of a method that left a question open (`Solution::undecided`), decided in fractions on the
 /// doubles as they stand: the exact solution, rounded, or a contradiction with its weights. It starts from
 /// the rows of the answer, or from those that its Farkas weights combine. Where that takes more than
-/// accuracy.limit times `most_word_operations`, the answer is given back as it is, not solved.
+/// accuracy.limit times `most_word_operations`, the answer is given back as it is, not solved; but solved
+/// where only `zero_slacks` are open, which then count as 0, as they do within the error bound.
 Solution decided_in_fractions(const NearestPointProblem&, Solution open, const Accuracy&);
 
 /// A bound of ||q - q*||_A that is proved whatever rows have to do with each other: by the duality gap, and

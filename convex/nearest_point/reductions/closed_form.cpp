@@ -35,7 +35,7 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
     rest[0] = slack(problem, 0, point.q).value();
   else if (!held && is_one_sided &&
            (rest[0] < 0 ||
-            (!problem.radii && !decide_degenerate_rows(set, point.q, row_scale, rest).empty())))
+            (!problem.radii && !decide_degenerate_rows(set, point, row_scale, rest).empty())))
     return std::nullopt;
   Solution found = certified_answer(set, point, rest, row_scale, 0, accuracy, held ? 1 : 0);
   found.method = held ? "closed-form" : "unconstrained";

@@ -269,10 +269,10 @@ class SparseActiveSet {
     if (!problem_.radii && !is_settled && (zero_part_ > 0 || doubtful_ > 0))
       solution.undecided = open_question::dependence;
     if (solution.undecided.empty())
-      solution.undecided = decide_tight_rows({problem_, scaled_, system_, rows_, degenerate_}, point_.q,
+      solution.undecided = decide_tight_rows({problem_, scaled_, system_, rows_, degenerate_}, point_,
                                              weight_, accuracy_.limit, slack_);
     if (!solution.undecided.empty()) {
-      solution.status = Status::inaccurate;
+      if (solution.undecided != open_question::zero_slacks) solution.status = Status::inaccurate;
       solution.basis = rows_;
     }
     solution.slack = slack_;
@@ -296,14 +296,14 @@ class SparseActiveSet {
   double doubtful_ = 0, zero_part_ = 0, delta_ = first_delta;
 };
 
-/// Whether a slack is so small a part of its terms that nearly dependent rows may have made it of 0.
+/// Whether a slack is so small a part of its terms that what is left of the rows of the working set, or that
+/// these nearly depend on each other, may have made it of 0.
 bool has_tiny_slacks(const NearestPointProblem& problem, const Solution& solved) {
-  constexpr double tiny = 0x1p-70;
   if (solved.status != Status::solved || problem.radii) return false;
   const Vector magnitude = solved.q.cwiseAbs();
   for (Index a = 0; a < problem.rows(); ++a)
     if (solved.slack[a] > 0 &&
-        solved.slack[a] <= tiny * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
+        solved.slack[a] <= held_to * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
       return true;
   return false;
 }

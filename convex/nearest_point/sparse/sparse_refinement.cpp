@@ -13,9 +13,6 @@ namespace {
 constexpr double enough = 0x1p-64, at_rounding = 0x1p-84, slowest = 0.7;
 constexpr int most_corrections = 60;
 
-/// Rows are held when what is left of them is this part of the scale.
-constexpr double held_to = 0x1p-58;
-
 /// A small part that shrinks slowly hides behind a large one that does not: no correction is held to be
 /// better.
 constexpr double fastest = 0x1p-10;

@@ -11,6 +11,9 @@ namespace convex::inline sparse {
 inline constexpr double first_delta = 1e-7, smaller_delta = 1e-2;
 inline constexpr int most_deltas = 3;
 
+/// Rows are held when what is left of them is this part of the scale.
+inline constexpr double held_to = 0x1p-58;
+
 /// A point with its multipliers, as pairs of doubles, in the units of the original problem.
 struct SparsePoint {
   DoubleDoubleVector q, lambda;      ///< n; m

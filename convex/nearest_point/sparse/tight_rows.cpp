@@ -6,7 +6,6 @@
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/sparse/dependent_rows.hpp"
 #include "convex/nearest_point/sparse/held_firmly.hpp"
-#include "convex/nearest_point/sparse/sparse_refinement.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline sparse {
@@ -22,24 +21,31 @@ bool contains(const std::vector<Index>& rows, Index a) {
 
 }  // namespace
 
-std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVector& q, const Vector& weight,
+std::string_view decide_tight_rows(const TightRows& rows, const SparsePoint& point, const Vector& weight,
                                    double limit, Vector& slack) {
   const auto& [problem, scaled, system, held, degenerate] = rows;
+  const Vector& q = point.q.hi;
   std::vector<Index> tight = held;
   tight.insert(tight.end(), degenerate.begin(), degenerate.end());
   std::sort(tight.begin(), tight.end());
   // Rows that q keeps without rounding have no residual, however nearly they depend on each other.
   std::vector<Index> rounded, besides;
   for (Index a : tight)
-    if (sign_of_slack(problem, a, q.hi) != 0) rounded.push_back(a);
+    if (sign_of_slack(problem, a, q) != 0) rounded.push_back(a);
+  // Whether the doubles q, where they are on the rows, are their point: of others the rounding may have made
+  // a slack of 0.
+  const auto is_exact = [&] {
+    return static_cast<Index>(held.size()) == problem.dimension() || is_in_balance(problem, q, point.lambda);
+  };
   if (rounded.empty()) {
-    // The doubles q are the point: what twice the precision left beside them is noise.
-    const Vector magnitude = q.hi.cwiseAbs();
+    if (!is_exact()) return {};
+    // What twice the precision left beside them is noise.
+    const Vector magnitude = q.cwiseAbs();
     const std::vector<bool> is_tight = marked(problem.rows(), tight);
     for (Index a = 0; a < problem.rows(); ++a)
       if (!is_tight[at(a)] &&
           slack[a] <= near_zero * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
-        slack[a] = slack_at(problem, a, q.hi);
+        slack[a] = slack_at(problem, a, q);
     return {};
   }
   for (Index a : degenerate)
@@ -68,10 +74,12 @@ std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVect
     std::erase_if(besides, [&](Index a) { return contains(found->implied, a); });
   }
   if (besides.empty()) return {};
-  const auto slacks = slacks_if_kept(problem, q.hi, held, besides);
+  const auto slacks = slacks_if_kept(problem, q, held, besides);
   if (!slacks) return open_question::degenerate_rows;
   slack(besides) = *slacks;
-  return {};
+  if ((slacks->array() == 0).all() || is_exact()) return {};
+  slack(besides).setZero();
+  return open_question::zero_slacks;
 }
 
 }  // namespace convex::inline sparse

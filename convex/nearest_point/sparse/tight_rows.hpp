@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "convex/double_double.hpp"
 #include "convex/nearest_point/sparse/row_system.hpp"
+#include "convex/nearest_point/sparse/sparse_refinement.hpp"
 
 namespace convex::inline sparse {
 
@@ -22,7 +22,7 @@ struct TightRows {
 /// open
 /// (`open_question`) where that cannot be told, else nothing. What depends on what, and with which bound, is
 /// decided without rounding; with radii, what is 0 within them counts as 0. limit: as in `Accuracy`.
-std::string_view decide_tight_rows(const TightRows&, const DoubleDoubleVector& q, const Vector& weight,
+std::string_view decide_tight_rows(const TightRows&, const SparsePoint& point, const Vector& weight,
                                    double limit, Vector& slack);
 
 }  // namespace convex::inline sparse

@@ -222,3 +222,21 @@ TEST_CASE("a system that rows and columns were added to and taken from solves as
   CHECK(first.solve(b).numerators.size() == n);
   CHECK_FALSE(system->append(convex::IntegerVector(n, 0), convex::IntegerVector(n, 0)));
 }
+
+TEST_CASE("a matrix that is definite by 2^-80 has a factor of doubles that gives it back, and its inverse") {
+  // ones + 2^-80 identity times 2^80: its inverse is (identity - ones / (n + 2^-80)) to leading order.
+  const std::size_t n = 4;
+  convex::IntegerRows A(n, convex::IntegerVector(n, convex::Integer::shifted(1, 80)));
+  for (std::size_t i = 0; i < n; ++i) A[i][i] += 1;
+  CHECK_FALSE(convex::cholesky_factor(A, 1).has_value());
+  const auto L = convex::cholesky_factor(A, convex::most_word_operations);
+  REQUIRE(L.has_value());
+  const Matrix ones = Matrix::Ones(4, 4);
+  CHECK((*L * L->transpose() - 0x1p80 * ones).cwiseAbs().maxCoeff() <= 0x1p30);
+  const convex::Metric metric = convex::Metric::dense(0x1p80 * ones, *L);
+  const Vector off = Eigen::Vector4d(1, -1, 2, -2);  // off the diagonal A is the identity
+  CHECK((metric.solve(off) - off).cwiseAbs().maxCoeff() <= 1e-14);
+  CHECK(metric.norm(off) == doctest::Approx(std::sqrt(10)).epsilon(1e-14));
+  A[0][0] += -2;
+  CHECK_FALSE(convex::cholesky_factor(A, convex::most_word_operations).has_value());
+}
