@@ -129,10 +129,15 @@ class InfConvolution : public Operation {
     const Value by_f = sum_of(f_.evaluate(in_f), value_near(g_, difference(x, in_f), size));
     return by_f.value > by_g.value ? by_f : by_g;
   }
-  /// The nearest point of the domain, where a formula gives it.
+  /// The nearest point of the domain, where a formula gives it: the end of an interval, if f has a value there.
   static Vector nearest_member(const Function& f, const Vector& x, double size) {
     const Facts facts = f.facts();
     if (facts.finite || !(facts.indicator || facts.separable)) return x;
+    if (x.size() == 1)
+      if (const auto domain = domain_of_one(f)) {
+        const Vector inside = Vector::Constant(1, std::clamp(x[0], domain->low, domain->high));
+        if (std::isfinite(f.evaluate(inside).value)) return inside;
+      }
     const double near = std::min(size, 1.0), weight = facts.indicator ? 1 : stiffest_weight / (near * near);
     if (!std::isfinite(weight)) return x;
     Vector found = f.prox(x, Metric::diagonal(Vector::Constant(x.size(), weight)), Look{}).x;
