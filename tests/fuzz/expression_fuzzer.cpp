@@ -14,7 +14,7 @@
 /// Random expressions of the function language, split and judged:
 ///   expression_fuzzer [COUNT] [SEED] [FIRST]
 /// A line for each that is wrong, refused or crashes, as the command that asks it again; a summary at the
-/// end. Exit 1 when any is wrong or crashes, or more than three in a thousand are refused, and two.
+/// end. Exit 1 when any is wrong or crashes, or more than one in a thousand is refused, and two.
 ///   expression_fuzzer 1000000 1966     by hand: hours
 namespace {
 
@@ -116,5 +116,5 @@ int main(int argc, char** argv) {
       "functions of "
       "the language %ld\n",
       counts.right, counts.open, counts.wrong, counts.refused, counts.crashed, counts.invalid);
-  return counts.wrong + counts.crashed > 0 || counts.refused > 2 + 3 * valid / 1000 ? 1 : 0;
+  return counts.wrong + counts.crashed > 0 || counts.refused > 2 + valid / 1000 ? 1 : 0;
 }
