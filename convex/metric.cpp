@@ -61,28 +61,6 @@ void require_finite(double value, Index i, Index j) {
   if (!std::isfinite(value)) throw InvalidInput("A: " + entry(i, j) + " is not finite; give finite numbers");
 }
 
-/// Whether every entry above the diagonal has its like below it, not one bit off, all of them finite: then W
-/// is its own mean with its transpose, which is not made.
-bool is_exactly_symmetric(const SparseMatrix& W) {
-  if (!W.isCompressed()) return false;
-  const Index n = W.rows();
-  const int *const start = W.outerIndexPtr(), *const row = W.innerIndexPtr();
-  const double* const value = W.valuePtr();
-  std::vector<int> next(start, start + n);  // the first entry above the diagonal that has no like yet
-  for (Index j = 0; j < n; ++j) {
-    int at = next[static_cast<std::size_t>(j)];
-    if (at < start[j + 1] && row[at] < j) return false;
-    for (; at < start[j + 1]; ++at) {
-      if (!std::isfinite(value[at])) return false;
-      if (row[at] == j) continue;
-      int& like = next[static_cast<std::size_t>(row[at])];
-      if (like == start[row[at] + 1] || row[like] != j || value[like] != value[at]) return false;
-      ++like;
-    }
-  }
-  return true;
-}
-
 /// ½ (W + Wᵀ), which may differ from W by rounding.
 SparseMatrix mean_with_transpose(const SparseMatrix& W) {
   const Index n = W.rows();
@@ -156,10 +134,16 @@ struct Metric::Data {
 
   static bool is_small(const Data& data) { return data.W.rows() <= 300; }  // 1.5 MB
 
-  /// w_ii / L_ii².
-  double pivot_loss(Index i) const {
-    const double over = triangle.inverse()[i / 8 * 128 + i % 8 * 9];
-    return std::abs(diagonal[i] * over * over);
+  /// The largest w_ii / L_ii²; infinite where a pivot is not a positive number.
+  double pivot_loss() const {
+    double largest = 1;
+    for (Index i = 0; i < diagonal.size(); ++i) {
+      const double over = triangle.inverse()[i / 8 * 128 + i % 8 * 9],
+                   loss = std::abs(diagonal[i] * over * over);
+      if (!std::isfinite(loss)) return infinity;
+      largest = std::max(largest, loss);
+    }
+    return largest;
   }
 };
 
@@ -196,14 +180,10 @@ Metric Metric::dense(const Matrix& W) {
   }
   data->diagonal = data->W.diagonal();
   data->triangle.factor();
-  double largest = 1;
-  for (Index i = 0; i < n; ++i) {
-    const double loss = data->pivot_loss(i);
-    if (!(loss * (pivot_roundings * unit_roundoff * static_cast<double>(n)) < 1))
-      refuse_indefinite(data->diagonal);
-    largest = std::max(largest, loss);
-  }
-  data->factor_condition = std::sqrt(largest);
+  const double loss = data->pivot_loss();
+  if (!(loss * (pivot_roundings * unit_roundoff * static_cast<double>(n)) < 1))
+    refuse_indefinite(data->diagonal);
+  data->factor_condition = std::sqrt(loss);
   return Metric(std::move(data));
 }
 
@@ -213,9 +193,7 @@ Metric Metric::dense(const Matrix& W, const Matrix& L) {
   data->W = W;
   data->diagonal = W.diagonal();
   data->triangle.take_factor(L);
-  double largest = 1;
-  for (Index i = 0; i < W.rows(); ++i) largest = std::max(largest, data->pivot_loss(i));
-  data->factor_condition = std::sqrt(largest);
+  data->factor_condition = std::sqrt(data->pivot_loss());
   return Metric(std::move(data));
 }
 

@@ -106,4 +106,24 @@ void SparseGram::unwhiten_in_place(Eigen::Ref<Vector> w) const {
 
 double SparseGram::factor_condition() const { return factor().condition; }
 
+bool is_exactly_symmetric(const SparseMatrix& W) {
+  if (!W.isCompressed()) return false;
+  const Index n = W.rows();
+  const int *const start = W.outerIndexPtr(), *const row = W.innerIndexPtr();
+  const double* const value = W.valuePtr();
+  std::vector<int> next(start, start + n);  // the first entry above the diagonal that has no like yet
+  for (Index j = 0; j < n; ++j) {
+    int at = next[static_cast<std::size_t>(j)];
+    if (at < start[j + 1] && row[at] < j) return false;
+    for (; at < start[j + 1]; ++at) {
+      if (!std::isfinite(value[at])) return false;
+      if (row[at] == j) continue;
+      int& like = next[static_cast<std::size_t>(row[at])];
+      if (like == start[row[at] + 1] || row[like] != j || value[like] != value[at]) return false;
+      ++like;
+    }
+  }
+  return true;
+}
+
 }  // namespace convex

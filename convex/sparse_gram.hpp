@@ -45,4 +45,8 @@ class SparseGram {
 /// monotonicity: Doyle and Snell 1984).
 Vector excess_if_plainly_definite(const SparseMatrix& W, double least_pivot);
 
+/// Whether every entry above the diagonal has its like below it, not one bit off, all of them finite: then W
+/// is its own mean with its transpose, which is not made.
+bool is_exactly_symmetric(const SparseMatrix& W);
+
 }  // namespace convex

@@ -4,6 +4,7 @@
 
 #include "cli/problem_file/numbers.hpp"
 #include "convex/exact/positive_definite.hpp"
+#include "convex/nearest_point/solution.hpp"
 
 namespace cli::inline problem_files {
 namespace {

@@ -10,6 +10,7 @@
 #include "convex/functions/cutting_planes.hpp"
 #include "convex/functions/other_pairs.hpp"
 #include "convex/functions/split_search.hpp"
+#include "convex/nearest_point/solution.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/takes_product.hpp"
 #include "convex/proved_prox/proved_split.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "convex/gamma0/value.hpp"
-#include "convex/nearest_point/solution.hpp"
+#include "convex/status.hpp"
 #include "convex/vector.hpp"
 
 namespace convex::inline gamma0 {

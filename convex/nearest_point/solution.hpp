@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "convex/nearest_point/model.hpp"
+#include "convex/status.hpp"
 #include "convex/vector.hpp"
 
 namespace convex {
-
-/// How a solve ended. `solved`: the error bound is at most tolerance * max(1, ||q||_A).
-enum class Status { solved, inaccurate, infeasible, gave_up };
 
 /// What to ask of a method.
 struct Accuracy {

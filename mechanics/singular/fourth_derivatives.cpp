@@ -80,9 +80,10 @@ std::vector<AddedRow> SingularGroup::test_fourth(std::size_t k, const std::vecto
       refuse(dependence,
              std::string("second and third derivatives do not tell the acceleration, and the fourth ones "
                          "contradict what they leave: the state has several branches; ") +
-                 (state_.v.isZero(0) ? "give a velocity or move off it"
-                                     : "give another velocity, write it so that its gradient does not vanish "
-                                       "(y = x for y^3 = x^3), or move off it"));
+                 (state_.v(columns_).isZero(0)
+                      ? "give a velocity or move off it"
+                      : "give another velocity, write it so that its gradient does not vanish "
+                        "(y = x for y^3 = x^3), or move off it"));
     refuse(
         dependence,
         "second and third derivatives do not see it, and the fourth ones contradict what they leave; write "
