@@ -14,11 +14,13 @@ struct EntryRadii {
   Vector s;        ///< m
 
   /// The same by rows, as methods use them: `longest_within` of U in the metric, and ŝ.
-  DataRadii by_rows(const Metric&) const;
+  DataRadii by_rows(const Metric& metric) const { return {longest_within(ConstraintRows(U), metric), s}; }
   /// Whether every number is known.
-  bool is_finite() const;
+  bool is_finite() const {
+    return A.coeffs().allFinite() && z.allFinite() && U.coeffs().allFinite() && s.allFinite();
+  }
   /// Whether every number is exact.
-  bool is_zero() const;
+  bool is_zero() const { return A.coeffs().isZero(0) && z.isZero(0) && U.coeffs().isZero(0) && s.isZero(0); }
 };
 
 }  // namespace convex

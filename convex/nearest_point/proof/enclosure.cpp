@@ -167,9 +167,7 @@ bool is_ordinary_problem(const NearestPointProblem& problem, const Solution& sol
   if (solution.q.size() != problem.dimension() || !is_ordinary(problem.z) || !is_ordinary(problem.s) ||
       !is_ordinary(solution.q) || !is_ordinary(solution.lambda))
     return false;
-  return problem.U.is_sparse() ? is_ordinary(Eigen::Map<const Vector>(problem.U.sparse().valuePtr(),
-                                                                      problem.U.sparse().nonZeros()))
-                               : is_ordinary(problem.U.dense());
+  return problem.U.is_sparse() ? is_ordinary(problem.U.sparse().coeffs()) : is_ordinary(problem.U.dense());
 }
 
 /// Open rows that add up to 0 with rows of the working set, and their bounds: equalities in disguise.

@@ -146,9 +146,7 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
                                             const Solution& solution, const std::vector<Index>& held) {
   if (problem.A.kind() == MetricKind::dense) return std::nullopt;
   const Balanced scaled = balanced(problem, held);
-  if (!is_ordinary(Eigen::Map<const Vector>(scaled.A.valuePtr(), scaled.A.nonZeros())) ||
-      !is_ordinary(Eigen::Map<const Vector>(scaled.U.valuePtr(), scaled.U.nonZeros())))
-    return std::nullopt;
+  if (!is_ordinary(scaled.A.coeffs()) || !is_ordinary(scaled.U.coeffs())) return std::nullopt;
   // |D Â D|, by its largest row sum.
   const double loose = above(scaled.d.cwiseProduct(radii.A_times(scaled.d)).maxCoeff());
   const auto alpha = least_eigenvalue_below(scaled.A, loose);

@@ -40,8 +40,7 @@ bool counts(double original, double scaled, bool may_vanish) {
 }  // namespace
 
 bool has_ordinary_numbers(const NearestPointProblem& problem) {
-  const bool rows = problem.U.is_sparse() ? exact_arithmetic::is_ordinary(Eigen::Map<const Vector>(
-                                                problem.U.sparse().valuePtr(), problem.U.sparse().nonZeros()))
+  const bool rows = problem.U.is_sparse() ? exact_arithmetic::is_ordinary(problem.U.sparse().coeffs())
                                           : exact_arithmetic::is_ordinary(problem.U.dense());
   return rows && exact_arithmetic::is_ordinary(problem.A.diagonal()) &&
          exact_arithmetic::is_ordinary(problem.z) && exact_arithmetic::is_ordinary(problem.s);
