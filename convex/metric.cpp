@@ -18,9 +18,13 @@
 namespace convex {
 namespace {
 
-/// A pivot of so many roundings per coordinate of its diagonal entry carries no digit of A: definite or not,
-/// doubles cannot tell.
+/// A least eigenvalue of so many roundings per coordinate, of A with a diagonal of ones, carries no digit of
+/// A: definite or not, doubles cannot tell.
 constexpr double pivot_roundings = 4;
+
+/// Pivots down to this part of their diagonal entries show that A is far from singular. Beside smaller ones
+/// the least eigenvalue is looked at: their own rounding may be far larger than that of the entries.
+constexpr double plain_pivot = 0x1p-26;
 
 /// Two entries a_ij and a_ji that should be equal may differ by so many roundings per coordinate, relative to
 /// sqrt(a_ii a_jj), which bounds both: the trace of a matrix computed in doubles. More is a wrong matrix.
@@ -180,7 +184,12 @@ Metric Metric::dense(const Matrix& W) {
   }
   data->diagonal = data->W.diagonal();
   data->triangle.factor();
-  const double loss = data->pivot_loss();
+  double loss = data->pivot_loss();
+  if (loss * plain_pivot > 1 && std::isfinite(loss)) {  // ||D^½ L⁻ᵀ||², D the diagonal
+    Matrix inverse = data->diagonal.cwiseSqrt().asDiagonal();
+    solve_lower_triangle(data->triangle.view(), inverse);
+    loss = inverse.squaredNorm();
+  }
   if (!(loss * (pivot_roundings * unit_roundoff * static_cast<double>(n)) < 1))
     refuse_indefinite(data->diagonal);
   data->factor_condition = std::sqrt(loss);

@@ -10,6 +10,25 @@
 namespace convex {
 namespace {
 
+/// As for dense matrices: beside pivots below this part of their diagonal entries the least eigenvalue of
+/// D^-½ W D^-½ is looked at, D the diagonal of W, which inverse iteration finds from above but for this
+/// factor.
+constexpr double plain_pivot = 0x1p-26, safety = 4;
+constexpr int most_iterations = 40;
+
+double least_eigenvalue(const linear_algebra::SparseCholesky& LLT, const Vector& diagonal) {
+  const Vector root = diagonal.cwiseSqrt();
+  Vector x(diagonal.size());
+  for (Index i = 0; i < x.size(); ++i)
+    x[i] = 1 + 0.5 * std::sin(static_cast<double>(i * i + i));  // no pattern
+  double norm = 1;
+  for (int k = 0; k < most_iterations && std::isfinite(norm) && norm > 0; ++k) {
+    x = LLT.solve(Vector(x.cwiseProduct(root) / x.norm())).cwiseProduct(root);
+    norm = x.norm();
+  }
+  return 1 / norm;
+}
+
 [[noreturn]] void refuse_indefinite() {
   throw InvalidInput(
       "A: not positive definite to working precision; give a symmetric positive definite matrix");
@@ -72,6 +91,8 @@ const SparseGram::Factor& SparseGram::factor() const {
     const Vector permuted = LLT.permuted(W_.diagonal());
     const double smallest = (LLT.diagonal().array().square() / permuted.array()).minCoeff();
     if (!(smallest > least_pivot_)) refuse_indefinite();
+    if (smallest < plain_pivot && !(least_eigenvalue(LLT, W_.diagonal()) > safety * least_pivot_))
+      refuse_indefinite();
     factor_ = std::make_unique<const Factor>(Factor{std::move(LLT), 1 / std::sqrt(smallest)});
   });
   return *factor_;

@@ -1,6 +1,7 @@
 #include "cli/problem_file/exact_projection.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "cli/problem_file/numbers.hpp"
 #include "convex/exact/positive_definite.hpp"
@@ -87,6 +88,8 @@ convex::DataRadii rounded_rows(const TomlValue& table, const convex::NearestPoin
 }
 
 std::optional<convex::Metric> metric_as_written(const TomlValue& A, const MetricKey& key) {
+  if (convex::cholesky_work(key.n, std::numeric_limits<double>::digits) > convex::most_word_operations)
+    return std::nullopt;
   try {
     ExactRows rows;
     if (A.kind != TomlValue::Kind::table) {

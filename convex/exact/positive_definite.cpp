@@ -123,13 +123,17 @@ bool is_positive_definite(const IntegerRows& A) {
   return leading_minors_positive(A, [](std::size_t, const IntegerRows&, const Integer&) {});
 }
 
+double cholesky_work(Index n, std::size_t bits) {
+  const auto size = static_cast<double>(n);
+  const double words = 1 + size * static_cast<double>(bits) / (2 * 64);  // of an entry half way
+  return size * size * size / 3 * words * words;
+}
+
 std::optional<Matrix> cholesky_factor(const IntegerRows& A, double most) {
   std::size_t bits = 0;
   for (const IntegerVector& row : A)
     for (const Integer& entry : row) bits = std::max(bits, entry.bits());
-  const auto n = static_cast<double>(A.size());
-  const double words = 1 + n * static_cast<double>(bits) / (2 * 64);  // of an entry half way
-  if (n * n * n / 3 * words * words > most) return std::nullopt;
+  if (cholesky_work(static_cast<Index>(A.size()), bits) > most) return std::nullopt;
   Matrix L = Matrix::Zero(static_cast<Index>(A.size()), static_cast<Index>(A.size()));
   const auto keep = [&](std::size_t k, const IntegerRows& left, const Integer& last) {
     const double pivot = std::sqrt(nearest_quotient(left[k][k], last));

@@ -15,7 +15,9 @@ bool is_positive_definite(const IntegerRows& A);
 /// The factor L of the symmetric integer matrix A = L Lᵀ, lower, its entries rounded from their exact values:
 /// by Bareiss' elimination l_ik = a_ik / sqrt(d_k d_(k-1)), a_ik the entries left after k - 1 steps, d_k the
 /// leading minors. However nearly singular A is. None where A is not positive definite, or where that would
-/// take more than `most` word operations by an estimate beforehand.
+/// take more than `most` word operations (`cholesky_work`).
 std::optional<Matrix> cholesky_factor(const IntegerRows& A, double most);
+/// An estimate beforehand, from the largest number of bits of an entry of an n×n matrix.
+double cholesky_work(Index n, std::size_t bits);
 
 }  // namespace convex::inline exact_arithmetic

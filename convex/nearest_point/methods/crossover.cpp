@@ -59,9 +59,7 @@ class Crossover {
     }
     raw.error_bound = held.error_bound + problem_.A.norm(q - held.q);
     held.polished = q != held.q;
-    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
-    raw.slack = held.slack;  // with the signs that are proved
-    return with_status(held.polished ? held : raw);
+    return with_status(candidate_.may_polish && accuracy_.polish ? held : raw);
   }
 
   std::optional<Solution> infeasible(const Vector& weights) {

@@ -80,7 +80,12 @@ Metric metric_block(const Metric& A, const std::vector<Index>& coordinates, cons
     Matrix block(n, n);
     for (Index j = 0; j < n; ++j)
       for (Index i = 0; i < n; ++i) block(i, j) = A.dense_gram()(coordinates[at(i)], coordinates[at(j)]);
-    return Metric::dense(block);
+    // Nothing is coupled to others, so that the rows of its factor are those of the whole.
+    const DenseFactor factor = A.dense_factor();
+    Matrix L = Matrix::Zero(n, n);
+    for (Index j = 0; j < n; ++j)
+      for (Index i = j; i < n; ++i) L(i, j) = factor.T[coordinates[at(i)] + coordinates[at(j)] * factor.ld];
+    return Metric::dense(block, L);
   }
   if (A.kind() == MetricKind::sparse) {
     std::vector<Eigen::Triplet<double>> entries;

@@ -118,7 +118,7 @@ class SparseActiveSet {
     for (int j = central_ ? -1 : 0; j < most_deltas; ++j) {
       const Vector weight = j < 0 ? central_weights(scaled_, rows_, delta, point_)
                                   : even_weights(problem_.rows(), rows_, delta);
-      delta_ = 1 / std::max(1.0, weight.maxCoeff());
+      delta_ = 1 / std::max(1.0, largest_entry(weight));
       weight_ = weight;
       if (!refine_rows(problem_, scaled_, system_, rows_, weight, zero_part_, point_)) return false;
       if (point_.converged || point_.wrong_signs) return true;
@@ -178,7 +178,7 @@ class SparseActiveSet {
     serious_ = 0;
     doubtful_ = 0;
     const Vector terms = point_.q.hi.cwiseAbs();
-    const double push = point_.lambda.hi.cwiseQuotient(scaled_.multiplier).cwiseAbs().maxCoeff();
+    const double push = largest_entry(point_.lambda.hi.cwiseQuotient(scaled_.multiplier));
     wrong_.clear();
     const auto count = [&](Index a, double by, double size) {
       ++wrong;

@@ -11,6 +11,9 @@ namespace convex::inline sparse {
 inline constexpr double first_delta = 1e-7, smaller_delta = 1e-2;
 inline constexpr int most_deltas = 3;
 
+/// The largest |x_i|; 0 of none.
+inline double largest_entry(const Vector& x) { return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0; }
+
 /// Rows are held when what is left of them is this part of the scale.
 inline constexpr double held_to = 0x1p-58;
 

@@ -50,7 +50,7 @@ std::string_view decide_tight_rows(const TightRows& rows, const SparsePoint& poi
   }
   for (Index a : degenerate)
     if (contains(rounded, a)) besides.push_back(a);
-  const double delta = 1 / std::max(1.0, weight.maxCoeff());
+  const double delta = 1 / std::max(1.0, largest_entry(weight));
   const auto hold = [&](const std::vector<Index>& chosen, Vector& with) {
     with = even_weights(problem.rows(), chosen, delta);
     return system.factor(with);
