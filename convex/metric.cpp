@@ -18,13 +18,10 @@
 namespace convex {
 namespace {
 
-/// A least eigenvalue of so many roundings per coordinate, of A with a diagonal of ones, carries no digit of
-/// A: definite or not, doubles cannot tell.
-constexpr double pivot_roundings = 4;
-
-/// Pivots down to this part of their diagonal entries show that A is far from singular. Beside smaller ones
-/// the least eigenvalue is looked at: their own rounding may be far larger than that of the entries.
-constexpr double plain_pivot = 0x1p-26;
+/// A pivot, of its diagonal entry, or a least eigenvalue, of a diagonal of ones, of so many roundings per
+/// coordinate carries no digit of A. The rounding of pivots may be far larger than that of the entries, so
+/// that beside those below `plain_pivot` the least eigenvalue is looked at.
+constexpr double pivot_roundings = 4, eigenvalue_roundings = 2, plain_pivot = 0x1p-26;
 
 /// Two entries a_ij and a_ji that should be equal may differ by so many roundings per coordinate, relative to
 /// sqrt(a_ii a_jj), which bounds both: the trace of a matrix computed in doubles. More is a wrong matrix.
@@ -184,14 +181,14 @@ Metric Metric::dense(const Matrix& W) {
   }
   data->diagonal = data->W.diagonal();
   data->triangle.factor();
-  double loss = data->pivot_loss();
-  if (loss * plain_pivot > 1 && std::isfinite(loss)) {  // ||D^½ L⁻ᵀ||², D the diagonal
-    Matrix inverse = data->diagonal.cwiseSqrt().asDiagonal();
+  const double loss = data->pivot_loss(), rounding = unit_roundoff * static_cast<double>(n);
+  bool is_definite = loss * (pivot_roundings * rounding) < 1;
+  if (is_definite && loss * plain_pivot > 1) {
+    Matrix inverse = data->diagonal.cwiseSqrt().asDiagonal();  // L⁻¹D^½: norm² >= 1 / eigenvalue
     solve_lower_triangle(data->triangle.view(), inverse);
-    loss = inverse.squaredNorm();
+    is_definite = inverse.squaredNorm() * (eigenvalue_roundings * rounding) < 1;
   }
-  if (!(loss * (pivot_roundings * unit_roundoff * static_cast<double>(n)) < 1))
-    refuse_indefinite(data->diagonal);
+  if (!is_definite) refuse_indefinite(data->diagonal);
   data->factor_condition = std::sqrt(loss);
   return Metric(std::move(data));
 }

@@ -43,7 +43,16 @@ class Rounding {
   explicit Rounding(const SolvedScene& solved)
       : solved_(solved),
         islands_(convex::find_islands(solved.scene.problem)),
-        scales_(at(islands_.count + 1), -1) {}
+        scales_(at(islands_.count + 1), -1) {
+    const Scene& scene = solved.scene;
+    if (!scene.written) return;
+    const auto count = static_cast<Index>(scene.contacts.size());
+    radius_ =
+        mechanics::equations_as_written(*scene.system, scene.state, scene.written->radii, scene.contacts,
+                                        solved.solution.primal.q, solved.solution.primal.lambda.head(count))
+            .balance.radius;
+    if (!radius_.allFinite()) radius_ = Vector();
+  }
 
   static constexpr Index everywhere = -1;  ///< of constraints that are no contacts
 
@@ -52,16 +61,17 @@ class Rounding {
     double& known = scales_[at(island + 1)];
     if (known >= 0) return known;
     const convex::NearestPointProblem& problem = solved_.scene.problem;
-    Vector q = solved_.solution.primal.q, z = problem.z;
-    for (Index i = 0; i < q.size(); ++i)
-      if (island != everywhere && islands_.of_coordinate[at(i)] != island) q[i] = z[i] = 0;
-    known = std::max(problem.A.norm(q), problem.A.dual_norm(z));
+    known = std::max(problem.A.norm(within(island, solved_.solution.primal.q)),
+                     problem.A.dual_norm(within(island, problem.z)));
     return known = std::isfinite(known) ? known : 0;
   }
-  /// Of a system A and z are rounded; numbers of a projection are those that were read.
+  /// Of a system A and z are rounded, by what its text tells of its equations; numbers of a projection are
+  /// those that were read.
   double error(Index island) {
-    const double size = scale(island);
-    return std::clamp(missing(), solved_.scene.system ? rounding * size : 0.0, coarsest * size);
+    const double size = scale(island), answer = std::min(missing(), coarsest * size);
+    if (!solved_.scene.system) return answer;
+    if (radius_.size() == 0) return std::max(answer, rounding * size);
+    return std::max(answer, solved_.scene.problem.A.dual_norm(within(island, radius_)));
   }
   /// Of the error bound what is not the rounding of q'' to doubles, which leaves every entry its digits.
   double missing() const {
@@ -73,9 +83,16 @@ class Rounding {
 
  private:
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+  Vector within(Index island, Vector x) const {
+    for (Index i = 0; i < x.size(); ++i)
+      if (island != everywhere && islands_.of_coordinate[at(i)] != island) x[i] = 0;
+    return x;
+  }
+
   const SolvedScene& solved_;
   convex::Islands islands_;
   std::vector<double> scales_;
+  Vector radius_;  ///< of z + Σ lambda_a u_a - A q'' as written, by coordinate
 };
 
 }  // namespace

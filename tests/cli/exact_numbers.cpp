@@ -167,11 +167,11 @@ TEST_CASE("a force of 1e-14 beside a weight of 10 presses on a wall, and no warn
 
 namespace {
 
-Outcome solve_by(const std::string& method, const std::string& A, const std::string& z,
-                 const std::string& s) {
+Outcome solve_by(const std::string& method, const std::string& A, const std::string& z, const std::string& s,
+                 const std::string& U = "[[1, 1]]") {
   return run_json_on("solve", two_rows({{2, "A = " + A},
                                         {3, "z = " + z},
-                                        {4, "U = [[1, 1]]"},
+                                        {4, "U = " + U},
                                         {5, "s = [" + s + "]"},
                                         {7, "[solve]\nmethod = \"" + method + "\""}}));
 }
@@ -202,6 +202,10 @@ TEST_CASE("an A of doubles definite by one unit in the last place is solved, a s
     CHECK(object.at("acceleration").at("q[0]") == 3 - 0x1p52);
     CHECK(object.at("multipliers").at("c[0]") == 2);
   }
+  const Outcome beside =
+      solve_by("auto", "[[1, 1, 0], [1, 1.0000000000000002, 0], [0, 0, 1]]", "[1, 2, 1]", "3", "[[1, 1, 0]]");
+  REQUIRE(beside.code == 0);  // in an island of its own
+  CHECK(Json::parse(beside.out).at("multipliers").at("c[0]") == 2);
   for (const char* singular : {"1", "0.9999999999999999"})
     CHECK(solve_by("exact", A(singular), "[1, 2]", "3").code == 2);
 }

@@ -85,3 +85,18 @@ TEST_CASE("a number that is 0 to rounding is printed as 0") {
   // The number itself stays in the JSON.
   CHECK(run({"solve", "--json", file}).out.find("5.55") != std::string::npos);
 }
+
+TEST_CASE("a number is no rounding of others that nothing couples to it") {
+  const std::string beside = point_on_floor({{4, "potential = \"-1e16*x + 9.81*y\""}, {8, ""}, {9, ""}});
+  CHECK(run_on("solve", beside).out.find("-9.81") != std::string::npos);
+  // 1/3 and 4/3 where A is definite by 1e-33, so that the norm of A sees next to nothing of them.
+  const std::string nearly = two_rows(
+      {{2,
+        R"(A = [["1","1"],["1","1000000000000000000000000000000001/1000000000000000000000000000000000"]])"},
+       {3, R"(z = ["-13/3","-833333333333333333333333333333333/250000000000000000000000000000000"])"},
+       {4, R"(U = [["1","0"],["1","1"]])"},
+       {5, R"(s = ["1/3","5/3"])"}});
+  const std::string text = run_on("solve", nearly).out;
+  CHECK(text.find("0.333333") != std::string::npos);
+  CHECK(text.find("1.33333") != std::string::npos);
+}

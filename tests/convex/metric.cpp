@@ -75,3 +75,29 @@ TEST_CASE("the rounding of a computed matrix is no asymmetry") {
   for (Index i = 0; i < B.size(); ++i) B.data()[i] = normal(generator);
   CHECK_NOTHROW(Metric::dense(B * B.transpose()));
 }
+
+TEST_CASE("a singular matrix is refused whose last pivot is the rounding of others, dense and sparse") {
+  // W (7, 7, 1) = 0, and the pivots are 49, 1 and what 1/7 left of 0.
+  const Matrix W{{49, -49, 0}, {-49, 50, -7}, {0, -7, 49}};
+  CHECK_THROWS_AS(Metric::dense(W), convex::InvalidInput);
+  CHECK_THROWS_AS(Metric::sparse(W.sparseView()), convex::InvalidInput);
+  // A chain of whole numbers: W = Σ (p_j e_i - p_i e_j)(…)ᵀ over neighbours i, j, with W p = 0.
+  std::mt19937 random(1966);
+  for (const Index n : {4, 12, 40, 90})
+    for (int draw = 0; draw < 20; ++draw) {
+      CAPTURE(n);
+      Vector p(n);
+      for (double& entry : p) entry = static_cast<double>(1 + random() % 9);
+      Matrix chain = Matrix::Zero(n, n);
+      for (Index i = 1; i < n; ++i) {
+        Vector link = Vector::Zero(n);
+        link[i] = p[i - 1];
+        link[i - 1] = -p[i];
+        chain += link * link.transpose();
+      }
+      CHECK_THROWS_AS(Metric::dense(chain), convex::InvalidInput);
+      CHECK_THROWS_AS(Metric::sparse(chain.sparseView()), convex::InvalidInput);
+      chain(0, 0) += 1;  // and is definite
+      CHECK(Metric::dense(chain).dimension() == n);
+    }
+}
