@@ -171,6 +171,12 @@ Solution off_open_rows(Solution solution, const std::vector<Index>& tight) {
   return solution;
 }
 
+bool has_gradient(const NearestPointProblem& problem, Index a) {
+  bool has = false;
+  problem.U.for_each_entry(a, [&](Index, double u) { has = has || u != 0; });
+  return has;
+}
+
 /// Whether doubles know T: its zeros are those of the rows as they stand, and roundings of lambda or T grow
 /// by no more than `most` in the multipliers.
 bool is_known(const NearestPointProblem& problem, const Dependence& rows, const Vector& length, double most) {
@@ -206,12 +212,20 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
   std::vector<Interval> ranges(at(problem.rows()));
   for (Index a = 0; a < problem.rows(); ++a) ranges[at(a)] = {solution.lambda[a], solution.lambda[a]};
+  for (Index a : found.tight) {  // of a row without a gradient any multiplier will do
+    if (has_gradient(problem, a)) continue;
+    ranges[at(a)] = {is_free[at(a)] ? -infinity : 0, infinity};
+    found.unique = false;
+  }
 
   if (!groups) {
     std::vector<Index> loaded, others;
-    for (Index a : found.tight) (solution.lambda[a] != 0 || is_free[at(a)] ? loaded : others).push_back(a);
-    found.unique = sparse_rows_are_independent(problem, loaded) && can_open(problem, loaded, others);
-    if (found.unique)
+    for (Index a : found.tight)
+      if (has_gradient(problem, a))
+        (solution.lambda[a] != 0 || is_free[at(a)] ? loaded : others).push_back(a);
+    const bool are_others = sparse_rows_are_independent(problem, loaded) && can_open(problem, loaded, others);
+    found.unique = found.unique && are_others;
+    if (are_others)
       found.ranges = std::move(ranges);
     else if (!least_norm_multipliers(problem, found.tight, found.least_norm) ||
              !is_same_reaction(problem, solution, found.least_norm, tolerance)) {

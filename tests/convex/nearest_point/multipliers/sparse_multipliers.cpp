@@ -185,3 +185,22 @@ TEST_CASE(
   CHECK_FALSE(found.null_space);
   CHECK_FALSE(found.unique);
 }
+
+TEST_CASE("a row without a gradient that holds has any multiplier, beside one island or many") {
+  for (const Index n : {4, 63, 64, 90})
+    for (const bool two_sided : {false, true}) {
+      CAPTURE(n);
+      RowMatrix U = RowMatrix::Zero(n + 1, n);
+      U.topRows(n).setIdentity();
+      const convex::NearestPointProblem problem{convex::Metric::identity(n), Vector::Constant(n, -1),
+                                                convex::ConstraintRows(U), Vector::Zero(n + 1),
+                                                two_sided ? std::vector<Index>{n} : std::vector<Index>{}};
+      const convex::Multipliers found = convex::multipliers(problem, convex::automatic(problem), 1e-9, true);
+      CHECK_FALSE(found.unique);
+      REQUIRE(found.ranges);
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      CHECK((*found.ranges)[static_cast<std::size_t>(n)].high == infinity);
+      CHECK((*found.ranges)[static_cast<std::size_t>(n)].low == (two_sided ? -infinity : 0));
+      CHECK((*found.ranges)[0].low == (*found.ranges)[0].high);
+    }
+}
