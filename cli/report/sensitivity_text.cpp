@@ -87,6 +87,8 @@ std::string derivatives_text(const SolvedScene& solved) {
 std::string margins_text(const SolvedScene& solved) {
   const auto margins =
       convex::margins(solved.scene.problem, solved.solution.primal, solved.solution.multipliers);
+  if (!margins && solved.solution.multipliers.unique)
+    return "A is so nearly singular that doubles tell no derivatives and no margins.\n";
   if (!margins) return "The multipliers are not unique: no margins.\n";
   Index nearest = -1;
   for (Index a = 0; a < margins->size(); ++a)

@@ -16,6 +16,14 @@ namespace {
 /// 0.
 constexpr double weak = 1e-12;
 
+/// Whether doubles keep three digits of A⁻¹; where they do not, as of an A that is definite by fractions
+/// alone, nothing is told of what it does. diag(A) over the squared pivots tells the least condition.
+bool has_digits(const Metric& A) {
+  constexpr double three_digits = 1e-3;
+  const double condition = A.factor_condition() * A.factor_condition();
+  return static_cast<double>(A.dimension()) * unit_roundoff * condition < three_digits;
+}
+
 /// By row: two-sided, or with a multiplier that is not 0.
 std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Solution& solution,
                               const Multipliers& multipliers) {
@@ -72,6 +80,7 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
 std::optional<Derivative> directional_derivative(const NearestPointProblem& problem, const Solution& solution,
                                                  const Multipliers& multipliers, const Vector& dz,
                                                  const Vector& ds) {
+  if (!has_digits(problem.A)) return std::nullopt;
   const std::vector<Index>& tight = multipliers.tight;
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),
                           loaded = loaded_rows(problem, solution, multipliers);
@@ -104,7 +113,7 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
 
 std::optional<Vector> margins(const NearestPointProblem& problem, const Solution& solution,
                               const Multipliers& multipliers) {
-  if (!multipliers.unique) return std::nullopt;
+  if (!multipliers.unique || !has_digits(problem.A)) return std::nullopt;
   const Index m = problem.rows();
   const std::vector<bool> loaded = loaded_rows(problem, solution, multipliers),
                           two_sided = marked(m, problem.two_sided);
