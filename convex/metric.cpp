@@ -19,9 +19,8 @@ namespace convex {
 namespace {
 
 /// A pivot, of its diagonal entry, or a least eigenvalue, of a diagonal of ones, of so many roundings per
-/// coordinate carries no digit of A. The rounding of pivots may be far larger than that of the entries, so
-/// that beside those below `plain_pivot` the least eigenvalue is looked at.
-constexpr double pivot_roundings = 4, eigenvalue_roundings = 2, plain_pivot = 0x1p-26;
+/// coordinate carries no digit of A.
+constexpr double pivot_roundings = 4, eigenvalue_roundings = 2;
 
 /// Two entries a_ij and a_ji that should be equal may differ by so many roundings per coordinate, relative to
 /// sqrt(a_ii a_jj), which bounds both: the trace of a matrix computed in doubles. More is a wrong matrix.

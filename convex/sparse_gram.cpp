@@ -10,10 +10,8 @@
 namespace convex {
 namespace {
 
-/// As for dense matrices: beside pivots below this part of their diagonal entries the least eigenvalue of
-/// D^-½ W D^-½ is looked at, D the diagonal of W, which inverse iteration finds from above but for this
-/// factor.
-constexpr double plain_pivot = 0x1p-26, safety = 4;
+/// Inverse iteration finds the least eigenvalue from above but for this factor.
+constexpr double safety = 4;
 constexpr int most_iterations = 40;
 
 double least_eigenvalue(const linear_algebra::SparseCholesky& LLT, const Vector& diagonal) {

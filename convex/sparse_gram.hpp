@@ -8,6 +8,10 @@
 
 namespace convex {
 
+/// The rounding of pivots may be far larger than that of the entries: beside those below this part of their
+/// diagonal entries the least eigenvalue of D^-½ W D^-½ is looked at, D the diagonal of W.
+inline constexpr double plain_pivot = 0x1p-26;
+
 /// A sparse Gram matrix W, W = F Fᵀ with F = PᵀL, P a fill-reducing permutation. Where the entries prove that
 /// no pivot can be small (`is_plainly_definite`), F is made when it is first asked for, by one thread while
 /// others wait; else at once. Which of both depends on W alone, and so do all results.
