@@ -1,6 +1,7 @@
 #pragma once
 
 #include <variant>
+#include <vector>
 
 #include "convex/double_double.hpp"
 #include "convex/vector.hpp"

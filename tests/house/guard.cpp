@@ -1,16 +1,12 @@
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tests/house/source_files.hpp"
@@ -21,13 +17,6 @@ using tests::SourceFile;
 namespace {
 
 const fs::path root = tests::source_root();
-
-/// What a line includes, without brackets or quotes; "" when it includes nothing.
-std::string included(const std::string& line) {
-  static const std::regex pattern("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
-  std::smatch match;
-  return std::regex_search(line, match, pattern) ? match[1].str() : "";
-}
 
 bool begins_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
   for (const std::string& prefix : prefixes)
@@ -46,7 +35,7 @@ TEST_CASE("data flow from cli to mechanics to convex and never back") {
     for (const std::string& line : file.lines) {
       CAPTURE(file.path);
       CAPTURE(line);
-      CHECK_FALSE(begins_with_any(included(line), forbidden));
+      CHECK_FALSE(begins_with_any(tests::included(line), forbidden));
     }
   }
 }
@@ -59,7 +48,7 @@ TEST_CASE("what the nearest point stands on does not see it") {
     for (const std::string& line : file.lines) {
       CAPTURE(file.path);
       CAPTURE(line);
-      CHECK_FALSE(begins_with_any(included(line), {"convex/nearest_point/"}));
+      CHECK_FALSE(begins_with_any(tests::included(line), {"convex/nearest_point/"}));
     }
   }
 }
@@ -93,7 +82,7 @@ TEST_CASE("heavy libraries stay behind the firewall: in no header of a room but 
     for (const std::string& line : file.lines) {
       CAPTURE(file.path);
       CAPTURE(line);
-      CHECK_FALSE(begins_with_any(included(line), heavy));
+      CHECK_FALSE(begins_with_any(tests::included(line), heavy));
     }
   }
 }
@@ -106,7 +95,7 @@ TEST_CASE("a decomposition of Eigen's is compiled in the room of linear algebra 
     const bool is_home = file.path.rfind("convex/linear_algebra/", 0) == 0 && !file.is_header();
     if (file.room == "tests" || is_home) continue;
     for (const std::string& line : file.lines) {
-      const std::string header = included(line);
+      const std::string header = tests::included(line);
       CAPTURE(file.path);
       CAPTURE(line);
       CHECK((header == "Eigen/SparseCore" || !begins_with_any(header, slow)));
@@ -117,7 +106,7 @@ TEST_CASE("a decomposition of Eigen's is compiled in the room of linear algebra 
 TEST_CASE("nothing but tests includes the header for ceres::Jet") {
   for (const SourceFile& file : tests::source_files())
     for (const std::string& line : file.lines)
-      if (file.room != "tests") CHECK(included(line) != "mechanics/jet_system.hpp");
+      if (file.room != "tests") CHECK(tests::included(line) != "mechanics/jet_system.hpp");
 }
 
 TEST_CASE("no file is longer than 350 lines, and none has a name that says nothing") {
@@ -138,39 +127,4 @@ TEST_CASE("the top level holds the rooms and nothing else") {
     CAPTURE(name);
     CHECK(allowed.count(name) == 1);
   }
-}
-
-TEST_CASE("every header of the library compiles alone") {
-  // These include Ceres', PETSc's, DAQP's and Python's own.
-  const auto needs_more = [](const std::string& path) {
-    return path == "mechanics/jet_system.hpp" || path == "cli/measurement/peer_module/daqp_program.hpp" ||
-           path == "cli/python/options.hpp" || path.starts_with("cli/petsc/");
-  };
-  std::vector<std::string> headers;
-  for (const SourceFile& file : tests::source_files())
-    if (file.is_header() && file.room != "tests" && !needs_more(file.path)) headers.push_back(file.path);
-  // Eigen is precompiled: it is most of the time, and what lacks convex/vector.hpp shows all the same.
-  const fs::path eigen = fs::temp_directory_path() / ("moreau_house_" + std::to_string(getpid()) + ".hpp");
-  std::ofstream(eigen) << "#include <Eigen/Core>\n#include <Eigen/SparseCore>\n";
-  const std::string compiler = std::string(MOREAU_COMPILER) + " -std=c++20 -isystem " + MOREAU_EIGEN + " ";
-  const std::string precompiled = eigen.string() + ".gch";
-  CHECK(std::system((compiler + "-x c++-header " + eigen.string() + " -o " + precompiled).c_str()) == 0);
-
-  std::vector<int> outcomes(headers.size(), -1);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i; (i = next++) < headers.size();)
-      outcomes[i] = std::system(("echo '#include \"" + headers[i] + "\"' | " + compiler + "-include " +
-                                 eigen.string() + " -fsyntax-only -x c++ -I" + root.string() + " -")
-                                    .c_str());
-  };
-  std::vector<std::thread> workers;
-  for (unsigned k = 0; k < std::max(1U, std::thread::hardware_concurrency()); ++k) workers.emplace_back(work);
-  for (std::thread& worker : workers) worker.join();
-  for (std::size_t i = 0; i < headers.size(); ++i) {
-    CAPTURE(headers[i]);
-    CHECK(outcomes[i] == 0);
-  }
-  fs::remove(eigen);
-  fs::remove(precompiled);
 }

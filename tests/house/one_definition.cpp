@@ -44,8 +44,7 @@ std::string bare(const SourceFile& file) {
 /// The qualified names of the types that a file defines where the linker can see them: in named namespaces
 /// and in such types, not in functions nor in a namespace without a name.
 std::set<std::string> visible_types(const SourceFile& file) {
-  static const std::regex namespace_head(
-      R"((?:^|\s)namespace(?:\s+([\w: ]*\w))?\s*$)");
+  static const std::regex namespace_head(R"((?:^|\s)namespace(?:\s+([\w: ]*\w))?\s*$)");
   static const std::regex type_head(
       R"((?:^|\s|>)(?:class|struct|union|enum(?:\s+class|\s+struct)?)\s+([\w:]+)(\s*<[^{]*>)?\s*(?:final\s*)?(?::[^{]*)?$)");
   std::set<std::string> found;

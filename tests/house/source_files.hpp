@@ -17,6 +17,9 @@ struct SourceFile {
 /// The folder of the project.
 std::filesystem::path source_root();
 
+/// What a line includes, without brackets or quotes; "" when it includes nothing.
+std::string included(const std::string& line);
+
 /// Every header and source of the rooms, tests included.
 std::vector<SourceFile> source_files();
 
