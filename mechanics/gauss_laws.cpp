@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "convex/laws/worst_check.hpp"
@@ -40,6 +39,7 @@ struct Judged {
   Vector length;  ///< ||u_a||_(A⁻¹): m, 0 where no law needs it
   Vector row;     ///< what the error bound, rounding and radii allow u_a·q'' - s_a: m
   double size;    ///< ||q''||_A + ||z||_(A⁻¹)
+  double data;    ///< what the rounding of A, z and U to doubles may leave of the balance, in ||.||_(A⁻¹)
   std::vector<bool> two_sided;
   const Vector& q() const { return solution.primal.q; }
   const Vector& lambda() const { return solution.multipliers.least_norm; }
@@ -59,9 +59,34 @@ void allow_radii(Judged& j, const convex::DataRadii& radii) {
   j.row += way + farthest * j.length;
 }
 
+/// |A||q|.
+Vector absolute_product(const convex::Metric& A, const Vector& q) {
+  switch (A.kind()) {
+    case convex::MetricKind::dense:
+      return A.dense_gram().cwiseAbs() * q.cwiseAbs();
+    case convex::MetricKind::sparse:
+      return A.sparse_gram().cwiseAbs() * q.cwiseAbs();
+    default:
+      return A.diagonal().cwiseProduct(q).cwiseAbs();
+  }
+}
+
+/// An answer in fractions is that of the numbers as written. What their rounding to doubles may leave of its
+/// balance: Σ_i v_i ||e_i||_(A⁻¹), v = u (|A||q''| + |z| + |Uᵀ||lambda|) by coordinate.
+double rounding_of_data(const Judged& j) {
+  Vector sizes = absolute_product(j.problem.A, j.q()) + j.problem.z.cwiseAbs();
+  for (Index a = 0; a < j.problem.rows(); ++a)
+    if (j.lambda()[a] != 0)
+      j.problem.U.for_each_entry(a, [&](Index i, double u) { sizes[i] += std::abs(j.lambda()[a] * u); });
+  double sum = 0;
+  for (Index i = 0; i < sizes.size(); ++i)
+    if (sizes[i] > 0) sum += unit_roundoff * sizes[i] * j.problem.A.dual_norm(Vector::Unit(sizes.size(), i));
+  return sum;
+}
+
 Judged judged(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
   const Index m = problem.rows();
-  Judged j{problem, solution, Vector(m), {}, Vector(m), 0, std::vector<bool>(static_cast<std::size_t>(m))};
+  Judged j{problem, solution, Vector(m), {}, Vector(m), 0, 0, std::vector<bool>(static_cast<std::size_t>(m))};
   for (Index a : problem.two_sided) j.two_sided[static_cast<std::size_t>(a)] = true;
   const convex::DoubleDoubleVector point(j.q());
   std::vector<Index> matter;
@@ -76,6 +101,7 @@ Judged judged(const convex::NearestPointProblem& problem, const GaussSolution& s
         j.length[a] * j.error() + roundings * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude));
   if (problem.radii) allow_radii(j, *problem.radii);
   j.size = problem.A.norm(j.q()) + problem.A.dual_norm(problem.z);
+  if (solution.as_written) j.data = rounding_of_data(j);
   return j;
 }
 
@@ -112,11 +138,11 @@ void feasibility_laws(const Judged& j, LawReport& report) {
   report.checks.push_back(complementary.check());
 }
 
-/// What solving with A and forming its products may leave, in the norm of forces.
+/// What solving with A as it was read and forming its products may leave, in the norm of forces.
 double force_rounding(const Judged& j) {
   double loads = 0;
   for (Index a = 0; a < j.problem.rows(); ++a) loads += std::abs(j.lambda()[a]) * j.length[a];
-  return roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * (j.size + loads);
+  return j.data + roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * (j.size + loads);
 }
 
 void balance_law(const Judged& j, LawReport& report) {
@@ -137,7 +163,7 @@ void balance_law(const Judged& j, LawReport& report) {
       roundings + (j.solution.multipliers.unique ? 0 : of_dependences * std::sqrt(j.steps()));
   report.checks.push_back(
       check_that("A q'' = z + sum of lambda_a u_a", j.problem.A.dual_norm(rest),
-                 j.error() + j.solution.taken_for_zero + roundings * j.size + of_loads * loads));
+                 j.error() + j.solution.taken_for_zero + j.data + roundings * j.size + of_loads * loads));
 }
 
 /// The reaction from the dual alone, with what made it.
@@ -162,9 +188,10 @@ DualRoute dual_route(const Judged& j) {
 /// roundings times cond(F)² (Higham 2002, theorem 10.3).
 double apart_by_rounding(const Judged& j, const ReactionFromDual& dual) {
   const double size = j.size + dual.apex_norm, of_factor = j.problem.A.factor_condition();
+  const double of_data = j.data > 0 ? j.data * size / j.size : 0;
   return j.error() + force_rounding(j) +
          condition_of_basis(j) / dual.thinnest * std::sqrt(j.steps()) *
-             (dual.apex_missed + roundings * of_factor * (1 + of_factor) * size);
+             (dual.apex_missed + of_data + roundings * of_factor * (1 + of_factor) * size);
 }
 
 void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report) {
@@ -235,6 +262,12 @@ std::vector<Vector> rivals(const Judged& j, const GaussOptions& options) {
   return found;
 }
 
+/// Σ |lambda_a| of what the radii of the rows allow u_a·x.
+double rows_at(const Judged& j, const Vector& x) {
+  if (!j.problem.radii) return 0;
+  return j.lambda().cwiseAbs().dot(j.problem.radii->s + j.problem.radii->row * j.problem.A.norm(x));
+}
+
 void uniqueness_law(const Judged& j, const GaussOptions& options, LawReport& report) {
   WorstCheck least("no other acceleration that the contacts allow has as small a G");
   const Vector gradient = gauss_gradient(j.problem, j.q());
@@ -245,6 +278,7 @@ void uniqueness_law(const Judged& j, const GaussOptions& options, LawReport& rep
       // G(q'' + d) - G(q'') - ½||d||² = (A q'' - z)·d.
       const double size = j.problem.A.norm(rival) + j.size;
       const double bound = (j.error() + rounding) * (j.problem.A.norm(d) + j.size) +
+                           rows_at(j, step * rival) +
                            roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * size * j.size;
       least.take(std::max(0.0, -gradient.dot(d)), bound);
     }
@@ -282,47 +316,6 @@ LawReport laws_in_units(const convex::NearestPointProblem& problem, const GaussS
   GaussSolution given = solution;
   restore_units(given, units.inverse(), options.accuracy.tolerance);
   return laws_as_it_stands(in_units(problem, units), given, options);
-}
-
-/// A power of two by row, near its largest entry where that cannot be squared; else 1.
-Vector row_units(const convex::NearestPointProblem& problem) {
-  constexpr double largest_ordinary = 0x1p80;
-  Vector units = Vector::Ones(problem.rows());
-  for (Index a = 0; a < problem.rows(); ++a) {
-    double largest = 0;
-    problem.U.for_each_entry(a, [&](Index, double u) { largest = std::max(largest, std::abs(u)); });
-    if (!(largest > 0) || (largest <= largest_ordinary && largest >= 1 / largest_ordinary)) continue;
-    const double unit = std::ldexp(1, std::clamp(std::ilogb(largest), -1000, 1000));
-    const double s = std::abs(problem.s[a]) / unit;
-    if (s == 0 ? problem.s[a] == 0 : s <= std::numeric_limits<double>::max()) units[a] = unit;
-  }
-  return units;
-}
-
-convex::NearestPointProblem in_row_units(convex::NearestPointProblem problem, const Vector& units) {
-  const auto inverse = units.cwiseInverse().asDiagonal();
-  problem.U = problem.U.is_sparse() ? convex::ConstraintRows(convex::SparseRows(inverse * problem.U.sparse()))
-                                    : convex::ConstraintRows(convex::RowMatrix(inverse * problem.U.dense()));
-  problem.s = problem.s.cwiseQuotient(units);
-  if (problem.radii)
-    problem.radii =
-        convex::DataRadii{problem.radii->row.cwiseQuotient(units), problem.radii->s.cwiseQuotient(units)};
-  return problem;
-}
-
-GaussSolution in_row_units(GaussSolution solution, const Vector& units) {
-  const auto scale = [&](Vector& multipliers) {
-    if (multipliers.size() == units.size()) multipliers = multipliers.cwiseProduct(units);
-  };
-  scale(solution.primal.lambda);
-  scale(solution.multipliers.least_norm);
-  scale(solution.hypothesis.two_sided.multipliers);
-  Vector& w = solution.primal.farkas;
-  scale(w);
-  if (w.size() > 0 && w.cwiseAbs().maxCoeff() > 0) w /= std::exp2(std::ilogb(w.cwiseAbs().maxCoeff()));
-  if (solution.primal.slack.size() == units.size())
-    solution.primal.slack = solution.primal.slack.cwiseQuotient(units);
-  return solution;
 }
 
 }  // namespace

@@ -123,4 +123,43 @@ void restore_units(GaussSolution& solution, const Units& units, double tolerance
   primal.status = close && std::isfinite(primal.error_bound) ? Status::solved : Status::inaccurate;
 }
 
+Vector row_units(const convex::NearestPointProblem& problem) {
+  Vector units = Vector::Ones(problem.rows());
+  for (Index a = 0; a < problem.rows(); ++a) {
+    double largest = 0;
+    problem.U.for_each_entry(a, [&](Index, double u) { largest = std::max(largest, std::abs(u)); });
+    if (is_ordinary(largest)) continue;
+    const double unit = std::ldexp(1, std::clamp(std::ilogb(largest), -1000, 1000));
+    const double s = std::abs(problem.s[a]) / unit;
+    if (s == 0 ? problem.s[a] == 0 : s <= std::numeric_limits<double>::max()) units[a] = unit;
+  }
+  return units;
+}
+
+convex::NearestPointProblem in_row_units(convex::NearestPointProblem problem, const Vector& units) {
+  const auto inverse = units.cwiseInverse().asDiagonal();
+  problem.U = problem.U.is_sparse() ? convex::ConstraintRows(convex::SparseRows(inverse * problem.U.sparse()))
+                                    : convex::ConstraintRows(convex::RowMatrix(inverse * problem.U.dense()));
+  problem.s = problem.s.cwiseQuotient(units);
+  if (problem.radii)
+    problem.radii =
+        convex::DataRadii{problem.radii->row.cwiseQuotient(units), problem.radii->s.cwiseQuotient(units)};
+  return problem;
+}
+
+GaussSolution in_row_units(GaussSolution solution, const Vector& units) {
+  const auto scale = [&](Vector& multipliers) {
+    if (multipliers.size() == units.size()) multipliers = multipliers.cwiseProduct(units);
+  };
+  scale(solution.primal.lambda);
+  scale(solution.multipliers.least_norm);
+  scale(solution.hypothesis.two_sided.multipliers);
+  Vector& w = solution.primal.farkas;
+  scale(w);
+  if (w.size() > 0 && w.cwiseAbs().maxCoeff() > 0) w /= std::exp2(std::ilogb(w.cwiseAbs().maxCoeff()));
+  if (solution.primal.slack.size() == units.size())
+    solution.primal.slack = solution.primal.slack.cwiseQuotient(units);
+  return solution;
+}
+
 }  // namespace mechanics

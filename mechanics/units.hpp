@@ -32,4 +32,11 @@ bool are_exact(const convex::NearestPointProblem&, const Units&, const convex::N
 /// Brings the solution of the problem in those units back to its own; the status is judged anew.
 void restore_units(GaussSolution&, const Units&, double tolerance);
 
+/// A power of two by row, near its largest entry where that cannot be squared; else 1.
+Vector row_units(const convex::NearestPointProblem&);
+
+/// Each row, with its s and radii, divided by its unit, and the multipliers and slacks that fit.
+convex::NearestPointProblem in_row_units(convex::NearestPointProblem, const Vector& units);
+GaussSolution in_row_units(GaussSolution, const Vector& units);
+
 }  // namespace mechanics

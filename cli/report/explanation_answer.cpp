@@ -123,8 +123,8 @@ void explain_contact(Document& document, const SolvedScene& solved, const Readab
 
 void explain_margins(Document& document, const SolvedScene& solved) {
   if (solved.scene.problem.rows() == 0) return;
-  const auto margins =
-      convex::margins(solved.scene.problem, solved.solution.primal, solved.solution.multipliers);
+  const auto margins = convex::margins(solved.scene.problem, solved.solution.primal,
+                                       solved.solution.multipliers, solved.solution.touching);
   if (!margins) return;
   Index nearest = -1;
   for (Index a = 0; a < margins->size(); ++a)

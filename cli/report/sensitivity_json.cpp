@@ -14,8 +14,9 @@ using convex::Vector;
 constexpr Index most_listed = 200;
 
 void write_derivative(JsonWriter& json, const SolvedScene& solved, const Vector& dz, const Vector& ds) {
-  const auto derivative = convex::directional_derivative(solved.scene.problem, solved.solution.primal,
-                                                         solved.solution.multipliers, dz, ds);
+  const auto derivative =
+      convex::directional_derivative(solved.scene.problem, solved.solution.primal,
+                                     solved.solution.multipliers, dz, ds, solved.solution.touching);
   if (!derivative) {
     json.null();
     return;
@@ -65,7 +66,8 @@ void write_sensitivity(JsonWriter& json, const SolvedScene& solved) {
     }
     json.end_object();
   }
-  const auto margins = convex::margins(scene.problem, solved.solution.primal, solved.solution.multipliers);
+  const auto margins = convex::margins(scene.problem, solved.solution.primal, solved.solution.multipliers,
+                                       solved.solution.touching);
   json.key("margins");
   if (!margins) {
     json.null().key("next").null().end_object();

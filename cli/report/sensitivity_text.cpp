@@ -18,7 +18,7 @@ constexpr Index most_columns = 8, most_directions = 20;
 
 std::optional<convex::Derivative> derivative(const SolvedScene& solved, const Vector& dz, const Vector& ds) {
   return convex::directional_derivative(solved.scene.problem, solved.solution.primal,
-                                        solved.solution.multipliers, dz, ds);
+                                        solved.solution.multipliers, dz, ds, solved.solution.touching);
 }
 
 /// Whether one unit less does the opposite of one more.
@@ -85,8 +85,8 @@ std::string derivatives_text(const SolvedScene& solved) {
 }
 
 std::string margins_text(const SolvedScene& solved) {
-  const auto margins =
-      convex::margins(solved.scene.problem, solved.solution.primal, solved.solution.multipliers);
+  const auto margins = convex::margins(solved.scene.problem, solved.solution.primal,
+                                       solved.solution.multipliers, solved.solution.touching);
   if (!margins && solved.solution.multipliers.unique)
     return "A is so nearly singular that doubles tell no derivatives and no margins.\n";
   if (!margins) return "The multipliers are not unique: no margins.\n";

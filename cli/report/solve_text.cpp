@@ -258,6 +258,8 @@ std::string accuracy_text(const SolvedScene& solved) {
   const convex::Solution& primal = solved.solution.primal;
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
+  if (!primal.q.allFinite())
+    return "NOT solved: the acceleration is beyond what doubles hold; other units bring it back.\n";
   if (!std::isfinite(primal.error_bound))
     return fmt::format("NOT solved: {} gives this acceleration, and nothing is known of its error.\n",
                        primal.method);

@@ -90,6 +90,26 @@ TEST_CASE("where the contacts contradict each other as equations the dual is a l
   CHECK(found["checks"].dump().find("from the dual by least distance") != std::string::npos);
 }
 
+TEST_CASE("an answer in fractions passes where A written in fractions is ill-conditioned, Hilbert's matrix") {
+  for (const int n : {4, 6, 8, 11}) {
+    std::string A, U, z;
+    for (int i = 0; i < n; ++i) {
+      A += "[";
+      for (int k = 0; k < n; ++k) A += "\"1/" + std::to_string(i + k + 1) + "\", ";
+      A += "], ";
+      z += std::to_string(i % 2 == 0 ? i + 1 : -i - 1) + ", ";
+    }
+    for (int a = 0; a < 2; ++a) {
+      U += "[";
+      for (int k = 0; k < n; ++k) U += a == k ? "1, " : "0, ";
+      U += "], ";
+    }
+    const Folder folder;
+    checked(folder.write("hilbert.toml",
+                         "[projection]\nA = [" + A + "]\nz = [" + z + "]\nU = [" + U + "]\ns = [0, 0.1]\n"));
+  }
+}
+
 TEST_CASE("without contacts the laws hold for the free motion") {
   const Folder folder;
   checked(folder.write("free.toml", "[projection]\nA = [[2]]\nz = [5]\nU = []\ns = []\n"));

@@ -12,9 +12,9 @@
 namespace convex::inline multiplier_sets {
 namespace {
 
-/// Multipliers that are this part of the largest push, each measured by its row's length, or of z, count as
-/// 0.
-constexpr double weak = 1e-12;
+/// Multipliers that are not unique are computed: those that are this part of the largest push, each measured
+/// by its row's length, or of z, count as 0.
+constexpr double noise = 1e-12;
 
 /// Whether doubles keep three digits of A⁻¹; where they do not, as of an A that is definite by fractions
 /// alone, nothing is told of what it does. diag(A) over the squared pivots tells the least condition.
@@ -24,15 +24,16 @@ bool has_digits(const Metric& A) {
   return static_cast<double>(A.dimension()) * unit_roundoff * condition < three_digits;
 }
 
-/// By row: two-sided, or with a multiplier that is not 0.
+/// By row: two-sided, or with a multiplier that is not 0 and not of a row told as weak.
 std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Solution& solution,
-                              const Multipliers& multipliers) {
+                              const Multipliers& multipliers, const std::vector<Index>& weak) {
   std::vector<bool> loaded = marked(problem.rows(), problem.two_sided);
   const Vector push =
       multipliers.least_norm.cwiseAbs().cwiseProduct(problem.U.lengths(problem.A.diagonal().cwiseInverse()));
   const double largest = std::max(solution.force_norm, push.size() > 0 ? push.maxCoeff() : 0);
   for (Index a = 0; a < push.size(); ++a)
-    if (push[a] > weak * largest) loaded[at(a)] = true;
+    if (push[a] > (multipliers.unique ? 0 : noise * largest)) loaded[at(a)] = true;
+  for (const Index a : weak) loaded[at(a)] = false;
   return loaded;
 }
 
@@ -68,7 +69,7 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
     std::vector<Index> loaded;
     const double largest = found.lambda.size() > 0 ? found.lambda.cwiseAbs().maxCoeff() : 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (two_sided[at(rows[k])] || found.lambda[static_cast<Index>(k)] > weak * largest)
+      if (two_sided[at(rows[k])] || found.lambda[static_cast<Index>(k)] > noise * largest)
         loaded.push_back(rows[k]);
     return loaded;
   }
@@ -79,11 +80,11 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
 
 std::optional<Derivative> directional_derivative(const NearestPointProblem& problem, const Solution& solution,
                                                  const Multipliers& multipliers, const Vector& dz,
-                                                 const Vector& ds) {
+                                                 const Vector& ds, const std::vector<Index>& weak) {
   if (!has_digits(problem.A)) return std::nullopt;
   const std::vector<Index>& tight = multipliers.tight;
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),
-                          loaded = loaded_rows(problem, solution, multipliers);
+                          loaded = loaded_rows(problem, solution, multipliers, weak);
   const bool choose = !multipliers.unique && (ds.array() != 0).any();
   const std::vector<bool>& held = choose ? two_sided : loaded;
   NearestPointProblem face{
@@ -112,10 +113,10 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
 }
 
 std::optional<Vector> margins(const NearestPointProblem& problem, const Solution& solution,
-                              const Multipliers& multipliers) {
+                              const Multipliers& multipliers, const std::vector<Index>& weak) {
   if (!multipliers.unique || !has_digits(problem.A)) return std::nullopt;
   const Index m = problem.rows();
-  const std::vector<bool> loaded = loaded_rows(problem, solution, multipliers),
+  const std::vector<bool> loaded = loaded_rows(problem, solution, multipliers, weak),
                           two_sided = marked(m, problem.two_sided);
   std::vector<Index> held;
   for (Index a : multipliers.tight)  // independent, for the multipliers are unique

@@ -19,15 +19,17 @@ struct Derivative {
 /// (Haraux 1977; Mignot 1976): d = dq/dt minimises ½ d·Ad - dz·d over u_a·d = ds_a for rows with a positive
 /// multiplier or two-sided, u_a·d >= ds_a for the other tight rows. Where multipliers are not unique, those
 /// count that make lambda·ds largest (Gauvin and Dubeau 1982): with them R·d is least among all d that keep
-/// the tight rows. dz: n; ds: m. None when the change makes rows contradict each other, or
-/// doubles keep fewer than three digits of A⁻¹.
+/// the tight rows. dz: n; ds: m; weak: one-sided rows whose multiplier is 0 but for the rounding of data.
+/// None when the change makes rows contradict each other, or doubles keep fewer than three digits of A⁻¹.
 std::optional<Derivative> directional_derivative(const NearestPointProblem&, const Solution&,
-                                                 const Multipliers&, const Vector& dz, const Vector& ds);
+                                                 const Multipliers&, const Vector& dz, const Vector& ds,
+                                                 const std::vector<Index>& weak = {});
 
 /// How far the active rows are from changing: the least ||dz||_(A⁻¹) of a change of z that makes row a
 /// open (lambda_a becomes 0) or close (u_a·q - s_a becomes 0), as long as nothing else changes. 0 for a weak
 /// row, infinite for two-sided rows and for those that no change reaches. None when multipliers are not
 /// unique, or doubles keep fewer than three digits of A⁻¹.
-std::optional<Vector> margins(const NearestPointProblem&, const Solution&, const Multipliers&);
+std::optional<Vector> margins(const NearestPointProblem&, const Solution&, const Multipliers&,
+                              const std::vector<Index>& weak = {});
 
 }  // namespace convex::inline multiplier_sets

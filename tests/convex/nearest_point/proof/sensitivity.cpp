@@ -140,6 +140,23 @@ TEST_CASE("forces below the least margin change no contact, and a ball leaves it
   }
 }
 
+TEST_CASE("a contact that carries 1e-13 beside one that carries 1 is held; one told as weak is not") {
+  const NearestPointProblem floors{convex::Metric::identity(2),
+                                   Vector{{-1.0, -1e-13}},
+                                   convex::ConstraintRows(RowMatrix{{1.0, 0.0}, {0.0, 1.0}}),
+                                   Vector::Zero(2),
+                                   {}};
+  const Solution resting = convex::active_set(floors);
+  const Multipliers all = convex::multipliers(floors, resting, 1e-9, false);
+  const auto lifted = [&](const std::vector<Index>& weak) {
+    return convex::directional_derivative(floors, resting, all, Vector{{0.0, 1.0}}, Vector::Zero(2), weak)
+        ->acceleration;
+  };
+  CHECK(lifted({}) == Vector::Zero(2));
+  CHECK(lifted({1}) == Vector{{0.0, 1.0}});
+  CHECK(convex::margins(floors, resting, all) == Vector{{1.0, 1e-13}});
+}
+
 TEST_CASE("margins and derivatives do not hang on the method that found the point") {
   int compared = 0;
   for (const Difficulty difficulty : {Difficulty::none, Difficulty::repeated_rows, Difficulty::at_rest})
