@@ -73,7 +73,7 @@ std::optional<HeldMotion> motion_with(const convex::NearestPointProblem& problem
   for (Index k = rank; k < m; ++k) {
     const convex::Vector row = U.col(qr.order[static_cast<std::size_t>(k)]),
                          part = gram->solve(directions.transpose() * row);
-    const double largest = part.cwiseAbs().maxCoeff();
+    const double largest = rank > 0 ? part.cwiseAbs().maxCoeff() : 0;
     for (Index i = 0; i < rank; ++i)
       if (std::abs(part[i]) > rounded_part * largest) lambda[i] = no_number;
   }

@@ -200,12 +200,8 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   const std::vector<Index> ending = accumulating(closing);
   if (!ending.empty()) {
     const Vector bouncing = state.v;
-    const std::vector<Index> stopping = united(resting, ending);
-    Vector rates(static_cast<Index>(stopping.size()));
-    for (std::size_t k = 0; k < stopping.size(); ++k)
-      rates[static_cast<Index>(k)] = -expansion_.rate(stopping[k]);
+    const std::vector<Index> stopping = brought_to_rest(united(resting, ending));
     const ImpactHistory last = history_[static_cast<std::size_t>(ending.front())];
-    state.v += expansion_.held_rows(stopping).least_change(rates);
     begin_arc(stopping, branches_after_jump(before_jump));
     const bool rest = status == MotionStatus::done && std::all_of(ending.begin(), ending.end(), [&](Index a) {
                         return contains(persist_, a);
@@ -237,6 +233,22 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   }
   begin_arc(resting, after);
   if (status == MotionStatus::done) release_event(held, state.v);
+}
+
+/// The least change of velocity after which contacts are at rest; of walls that close in not both are.
+std::vector<Index> Motion::EventDriven::brought_to_rest(std::vector<Index> contacts) {
+  constexpr double at_rest = 1e-3;  // of the fastest of them
+  Vector rates(static_cast<Index>(contacts.size())), u;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    rates[static_cast<Index>(k)] = expansion_.rate(contacts[k]);
+  const Vector change = expansion_.held_rows(contacts).least_change(-rates);
+  const double fastest = rates.cwiseAbs().maxCoeff();
+  std::erase_if(contacts, [&](Index a) {
+    expansion_.row(a, u);
+    return std::abs(expansion_.rate(a) + u.dot(change)) > at_rest * fastest + expansion_.rounding_of_rate(a);
+  });
+  state.v += change;
+  return contacts;
 }
 
 std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& closing) const {

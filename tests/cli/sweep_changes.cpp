@@ -49,6 +49,15 @@ TEST_CASE("a sweep finds where a slack begins that the tolerance hides, also bes
   }
 }
 
+TEST_CASE("a row without a gradient is swept like another: it holds, or nothing satisfies it") {
+  const Folder folder;
+  const std::string file =
+      folder.write("zero.toml", "[projection]\nA = [[2]]\nz = [1]\nU = [[0]]\ns = [-1]\n");
+  const Json swept = Json::parse(run({"sweep", "--json", file, "--over", "projection.s[0]=-1:1:1"}).out);
+  CHECK(swept.at("points").front().at("status") == "solved");
+  CHECK(swept.at("points").back().at("status") == "infeasible");
+}
+
 TEST_CASE("a sweep finds where a contact leaves that was at exactly 0 until then") {
   const Folder folder;
   const std::string file = folder.write(

@@ -38,6 +38,17 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("where the impacts between walls that close in end with the walls together, no velocity is left") {
+  const SystemText closing{{"y"}, "y'^2/2", "", {}, {}, {}, {{"floor", "y >= t"}, {"ceiling", "y <= 1"}}};
+  for (const double e : {0.0, 0.2, 0.5}) {
+    const Followed found = followed(closing, state({0.5}, {2}), 1.5, restitution(closing, e));
+    CAPTURE(e);
+    CHECK(found.motion.status() == MotionStatus::infeasible);
+    CHECK(found.end().t == doctest::Approx(1).epsilon(1e-9));
+    CHECK(found.motion.record().largest_penetration < 1e-12);
+  }
+}
+
 TEST_CASE("walls that close in and stop are followed, however many impacts there are") {
   // Between walls at 1 -+ w the speed v is kept up to small terms as 1/w.
   const SystemText closing{{"x"},
