@@ -10,6 +10,7 @@
 #include "mechanics/motion/first_return.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
 #include "mechanics/motion/orbit_section.hpp"
+#include "mechanics/number_text.hpp"
 
 namespace mechanics::inline motions {
 namespace {
@@ -107,6 +108,41 @@ class KeptEnergy {
   double value_ = 0;
 };
 
+/// What drives a motion is the same a period later, to this part of its largest on the way; rounding of the
+/// period and of t is far below.
+constexpr double repeated_forcing = 1e-8;
+
+/// Throws InvalidInput where A, z, f or df/dt of a state on the way are others a period later: a state that
+/// comes back then does not go on as it did.
+void require_forcing_of_period(const LagrangianSystem& system, const Flight& flight, double period) {
+  const auto numbers = [&](State at) {
+    const Inertia inertia = system.inertia(at);
+    const ConstraintRates rates = system.constraint_rates(at);
+    const Index entries = inertia.A.nonZeros(), n = inertia.z.size(), m = rates.f.size();
+    Vector all(entries + n + 2 * m);
+    all << Eigen::Map<const Vector>(inertia.A.valuePtr(), entries), inertia.z, rates.f, rates.df;
+    return all;
+  };
+  std::vector<Vector> before, later;
+  Vector largest;
+  for (const FlightPiece& piece : flight.pieces) {
+    State at = piece.after;
+    before.push_back(numbers(at));
+    at.t += period;
+    later.push_back(numbers(at));
+    if (largest.size() == 0) largest = Vector::Zero(before.back().size());
+    if (before.back().size() != largest.size() || later.back().size() != largest.size()) return;
+    largest = largest.cwiseMax(before.back().cwiseAbs());
+  }
+  for (std::size_t k = 0; k < before.size(); ++k)
+    if (((later[k] - before[k]).cwiseAbs().array() > repeated_forcing * largest.array()).any())
+      throw convex::InvalidInput(
+          "what drives the motion at t = " + number_text(flight.pieces[k].after.t) + " is another at t = " +
+          number_text(flight.pieces[k].after.t + period) + ": " + number_text(period) +
+          " is neither a period of it nor a multiple of one; give one, as an expression such as "
+          "\"2*pi/w\"");
+}
+
 /// The orbit by the map from the time of the guess.
 Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
   Orbit orbit;
@@ -124,6 +160,8 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
   const Index n = guess.q.size(), size = chart->dimension(), unknowns = size + (question.is_free ? 1 : 0);
   Vector x = as_one(orbit.start);
   Flight flight = map.fly(x, orbit.period);
+  if (system.equations_of_motion().series.steps.uses_time)
+    require_forcing_of_period(system, flight, orbit.period);
   if (!flight.arrives) {
     orbit.why = flight.why;
     return orbit;

@@ -54,8 +54,8 @@ TEST_CASE("a row without a gradient is swept like another: it holds, or nothing 
   const std::string file =
       folder.write("zero.toml", "[projection]\nA = [[2]]\nz = [1]\nU = [[0]]\ns = [-1]\n");
   const Json swept = Json::parse(run({"sweep", "--json", file, "--over", "projection.s[0]=-1:1:1"}).out);
-  CHECK(swept.at("points").front().at("status") == "solved");
-  CHECK(swept.at("points").back().at("status") == "infeasible");
+  CHECK(swept.at("rows") == 3);
+  CHECK(swept.at("without_answer") == 1);  // 0 >= 1
 }
 
 TEST_CASE("a sweep finds where a contact leaves that was at exactly 0 until then") {

@@ -47,6 +47,22 @@ TEST_CASE(
   CHECK_FALSE(found.is_stable);
 }
 
+TEST_CASE("a state that comes back after what is no period of the forcing is no orbit") {
+  // The map over any time has a fixed point here.
+  const SystemText text{{"x"}, "x'^2/2", "2*x^2", {}, {}, {{"x", "cos(1.5*t) - 0.3*x'"}}, {}};
+  const auto made = system(text);
+  const double period = 2 * std::acos(-1.0) / 1.5;
+  OrbitQuestion question;
+  for (const double other : {1.0, 1.5 * period, period * (1 + 1e-6)}) {
+    question.period = other;
+    CHECK_THROWS_AS(find_orbit(*made, state({0}, {0}), question), convex::InvalidInput);
+  }
+  for (const double k : {1, 2, 7}) {
+    question.period = k * period;
+    CHECK(find_orbit(*made, state({0}, {0}), question).is_found);
+  }
+}
+
 TEST_CASE("a forced linear oscillator has the multipliers exp(lambda T)") {
   const SystemText text{{"x"}, "x'^2", "9*x^2", {}, {}, {{"x", "5*cos(2.5*t) - 0.8*x'"}}, {}};
   const auto made = system(text);
