@@ -16,7 +16,6 @@ using std::abs;
 using std::acos;
 using std::asin;
 using std::atan;
-using std::atan2;
 using std::cos;
 using std::cosh;
 using std::exp;

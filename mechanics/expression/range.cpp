@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mechanics/expression/rounded.hpp"
+
 namespace mechanics::expression {
 namespace {
 
@@ -117,11 +119,11 @@ Range root_of(Range result, double e, Range a) {
 /// sides, so that corners have the ends.
 Range angle(Range y, Range x) {
   constexpr Range all_angles{-3.2, 3.2};
-  const bool is_above = y.low >= 0 && !std::signbit(y.low);
+  const bool is_above = y.low >= 0;
   if (!(is_above || x.low > 0 || y.high < 0) || !std::isfinite(x.low + x.high + y.low + y.high))
     return all_angles;
-  const double ends[] = {std::atan2(y.low, x.low + 0.0), std::atan2(y.low, x.high + 0.0),
-                         std::atan2(y.high, x.low + 0.0), std::atan2(y.high, x.high + 0.0)};
+  const double ends[] = {atan2(y.low, x.low), atan2(y.low, x.high), atan2(y.high, x.low),
+                         atan2(y.high, x.high)};
   return of_library(*std::min_element(ends, ends + 4), *std::max_element(ends, ends + 4));
 }
 

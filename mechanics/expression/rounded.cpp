@@ -56,9 +56,11 @@ Rounded atan(Rounded a) {
   return moved(std::atan(a.value), a.radius / (1 + least * least));
 }
 
+double atan2(double y, double x) { return std::atan2(y + 0.0, x + 0.0); }
+
 /// Seen from 0, a disc of radius ρ at the distance R is within the angle asin(ρ/R) <= ρ/sqrt(R² - ρ²).
 Rounded atan2(Rounded a, Rounded b) {
-  const double f = std::atan2(a.value, b.value);
+  const double f = atan2(a.value, b.value);
   if (a.is_exact() && b.is_exact()) return moved(f, 0);
   const double disc = std::hypot(a.radius, b.radius), distance = std::hypot(a.value, b.value);
   const bool may_jump = a.may_be_zero() && !a.is_exact() && b.value - b.radius <= 0;

@@ -74,6 +74,9 @@ Rounded tan(Rounded a);
 Rounded asin(Rounded a);
 Rounded acos(Rounded a);
 Rounded atan(Rounded a);
+/// The angle of (x, y), in (-π, π]: that of doubles, but -0 is 0, so that the ray y = 0 > x has π from both
+/// zeros.
+double atan2(double y, double x);
 Rounded atan2(Rounded a, Rounded b);
 Rounded sinh(Rounded a);
 Rounded cosh(Rounded a);

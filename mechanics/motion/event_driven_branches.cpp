@@ -290,6 +290,19 @@ ContactQuestion Motion::EventDriven::question_of(const std::vector<Index>& conta
   return question;
 }
 
+/// The branches of the others where these jump, and with them an argument such as that of sign(if(x < 0, y,
+/// 1)).
+void Motion::EventDriven::follow_jumps(const std::vector<Index>& jumping) {
+  expansion_.set(state);
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
+    const double argument = expansion_.switch_argument(k)[0];
+    if (!(argument * expansion_.branch(k) < 0) || is_among(jumping, static_cast<Index>(k))) continue;
+    if (!(std::abs(argument) > expansion_.rounding_of_switch(k)[0])) continue;
+    expansion_.branch(k) = -expansion_.branch(k);
+    expansion_.set(state);
+  }
+}
+
 /// The right limit on the branches that it itself takes: those across first, then all others.
 std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
                                                                      const std::vector<Index>& switches) {
@@ -308,7 +321,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
         branch = -branch;
     }
     try {
-      if (!switches.empty()) expansion_.set(state);
+      if (!switches.empty()) follow_jumps(switches);
       ContactAnswer answer = expansion_.expand(question);
       if (!answer.excluding.empty()) return answer;
       if (is_consistent(switches)) return answer_where_zero_stays(question, switches, std::move(answer));

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <set>
 
+#include "mechanics/expression/cut_nodes.hpp"
 #include "mechanics/expression/gradient_nodes.hpp"
 #include "mechanics/expression/total_derivative.hpp"
 
@@ -15,12 +16,13 @@ namespace {
 using ByVariable = std::vector<std::pair<std::uint32_t, NodeId>>;
 
 /// F = ∂(T - V)/∂q + Q by coordinate; no_node where it is 0 by its structure.
-std::vector<NodeId> forces(Tape& tape, const LagrangianModel& model, const ByVariable& by_coordinate) {
+std::vector<NodeId> forces(Tape& tape, const LagrangianModel& model, const CutNodes& cut,
+                           const ByVariable& by_coordinate) {
   std::vector<NodeId> found(model.coordinates.size(), no_node);
   for (const auto& [i, derivative] : by_coordinate) found[i] = derivative;
   for (const Index i : model.forced) {
     const auto k = static_cast<std::size_t>(i);
-    const NodeId Q = model.forces[k];
+    const NodeId Q = cut.of(model.forces[k]);
     found[k] = found[k] == no_node ? Q : tape.apply(Operation::add, found[k], Q, tape.origin(Q));
   }
   return found;
@@ -45,29 +47,32 @@ bool takes_branches(const Tape& tape, NodeId of) {
 }  // namespace
 
 LagrangeEquations::LagrangeEquations(const LagrangianModel& model) : tape(model.tape) {
-  const NodeId T = model.kinetic;
-  const NodeId lagrangian =
-      model.potential == no_node ? T : tape.apply(Operation::subtract, T, model.potential, tape.origin(T));
+  const CutNodes cut(tape);
+  const NodeId T = cut.of(model.kinetic);
+  const NodeId lagrangian = model.potential == no_node
+                                ? T
+                                : tape.apply(Operation::subtract, T, cut.of(model.potential), tape.origin(T));
   const GradientNodes of_lagrangian = gradient_nodes(tape, lagrangian);
-  std::vector<NodeId> leading, following, last = model.f;
+  std::vector<NodeId> leading, following, last;
+  for (const NodeId f : model.f) last.push_back(cut.of(f));
   // The model has T positive definite in q', so that every velocity is in it; one that is not has p = 0.
   std::vector<NodeId> p(model.coordinates.size(), tape.literal("0", 0, tape.origin(T)));
   for (const auto& [i, derivative] : of_lagrangian.by_velocity) p[i] = derivative;
   leading = p;
   TotalDerivative rate_of(tape);
-  for (const NodeId f : model.f) leading.push_back(rate_of.of(f));
+  for (const NodeId f : last) leading.push_back(rate_of.of(f));
 
-  const std::vector<NodeId> F = forces(tape, model, of_lagrangian.by_coordinate);
+  const std::vector<NodeId> F = forces(tape, model, cut, of_lagrangian.by_coordinate);
   std::vector<ByVariable> gradients;
   for (const NodeId force_node : F)
     if (force_node != no_node) following.push_back(force_node);
-  for (const NodeId f : model.f) {
+  for (const NodeId f : last) {
     gradients.push_back(gradient_nodes(tape, f).by_coordinate);
     for (const auto& [i, u] : gradients.back()) following.push_back(u);
   }
 
   // Jumps of T, V or f have no derivative, and are met where what decides them comes to 0.
-  for (const NodeId f : model.f)
+  for (const NodeId f : last)
     if (takes_branches(tape, f)) following.push_back(f);
   const bool has_steps = takes_branches(tape, lagrangian);
   if (has_steps) following.push_back(lagrangian);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/expression/operation.hpp"
+#include "mechanics/expression/rounded.hpp"
 
 namespace mechanics::inline motions {
 namespace {
@@ -116,7 +117,7 @@ double TaylorSeries::value(const TaylorStep& step) {
     case Kind::arc:
       return expression::value(static_cast<Operation>(step.b), a, a);
     case Kind::angle:
-      return std::atan2(a, b);
+      return expression::atan2(a, b);
     case Kind::absolute:
       return branch(step) * a;
     case Kind::where_not_negative:

@@ -175,3 +175,52 @@ TEST_CASE("at rest at the bottom of a groove in one constraint the motion stops 
   CHECK(motion.motion.why().find("kink") != std::string::npos);
   CHECK(motion.motion.why().find("y >= -x") != std::string::npos);
 }
+
+TEST_CASE("an angle wrapped by atan2 jumps at its cut, and the motion goes on behind it") {
+  // On each turn a harmonic motion about its middle: A sin(t + phase), A² = 2 (T + V).
+  const SystemText text{{"a"}, "a'^2/2", "atan2(sin(a), cos(a))^2/2", {}, {}, {}, {}};
+  const double pi = std::acos(-1.0), until = 20;
+  for (const double speed : {50.0, 5.0, -20.0}) {
+    CAPTURE(speed);
+    const Followed motion = followed(text, state({0.5}, {speed}), until);
+    REQUIRE(motion.motion.status() == MotionStatus::done);
+    const double A = std::sqrt(speed * speed + 0.25), quarter = std::asin(pi / A),
+                 way = std::copysign(1.0, speed);
+    const double since = until + std::asin(way * 0.5 / A) + quarter;  // the beginning of the first turn
+    const double turns = std::floor(since / (2 * quarter)), rest = since - turns * 2 * quarter;
+    CHECK(motion.end().q[0] ==
+          doctest::Approx(way * (2 * pi * turns + A * std::sin(rest - quarter))).epsilon(1e-10));
+    CHECK(motion.motion.energy() == doctest::Approx(A * A / 2).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("a branch whose argument jumps with another is taken anew there") {
+  // The force is -1 where x < 0 and y < 0, else 1; y stays -1.
+  const SystemText text{{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"x", "sign(if(x < 0, y, 1))"}}, {}};
+  const Followed motion = followed(text, state({-0.5, -1}, {2, 0}), 1);
+  const double v = std::sqrt(3.0), t = 1 - (2 - v);  // at x = 0, and the time left
+  CHECK(motion.end().q[0] == doctest::Approx(v * t + t * t / 2).epsilon(1e-12));
+}
+
+TEST_CASE("the root of a square is followed as the magnitude that it is") {
+  const SystemText root{{"a"}, "a'^2/2", "3*sqrt((a-3)^2)", {}, {}, {}, {}},
+      magnitude{{"a"}, "a'^2/2", "3*abs(a-3)", {}, {}, {}, {}};
+  const auto along = [](const SystemText& text) { return followed(text, state({0.7}, {5}), 7).end().q[0]; };
+  CHECK(along(root) == doctest::Approx(along(magnitude)).epsilon(1e-12));
+}
+
+TEST_CASE("steps that get shorter without end stop the motion with the reason") {
+  const SystemText text{{"a"}, "a'^2/2", "asin(sin(a))", {}, {}, {}, {}};
+  const Followed motion = followed(text, state({0.7}, {5}), 7);
+  CHECK(motion.motion.status() == MotionStatus::stopped);
+  CHECK(motion.motion.why().find("asin") != std::string::npos);
+  CHECK(motion.end().t == doctest::Approx(0.177302894906).epsilon(1e-9));  // a = π/2
+}
+
+TEST_CASE("the angle of a point on the negative axis is pi, whatever the sign of its zero") {
+  for (const char* angle : {"atan2(y, x)", "atan2(-y, x)", "atan2(-2*y, x)", "atan2(-sin(y), x)"}) {
+    CAPTURE(angle);
+    const auto made = system({{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"x", angle}}, {}});
+    CHECK(made->inertia(state({-1, 0}, {0, 0})).z[0] == std::acos(-1.0));
+  }
+}
