@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "convex/linear_quadratic/stationarity.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex {
 namespace {

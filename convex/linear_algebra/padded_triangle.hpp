@@ -5,7 +5,7 @@
 
 #include "convex/dense/dense_kernels.hpp"
 
-namespace convex::inline dense {
+namespace convex::linear_algebra {
 
 /// The Cholesky factor of a dense W as `DenseKernels` wants it. A W that is not positive definite leaves
 /// numbers on the diagonal that are not positive or not finite.
@@ -33,4 +33,4 @@ class PaddedTriangle {
   double* T_ = nullptr;
 };
 
-}  // namespace convex::inline dense
+}  // namespace convex::linear_algebra

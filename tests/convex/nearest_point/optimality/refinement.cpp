@@ -1,4 +1,4 @@
-#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/refinement.hpp"
 
 #include <doctest/doctest.h>
 

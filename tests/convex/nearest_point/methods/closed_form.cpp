@@ -1,4 +1,4 @@
-#include "convex/nearest_point/reductions/closed_form.hpp"
+#include "convex/nearest_point/methods/closed_form.hpp"
 
 #include <doctest/doctest.h>
 

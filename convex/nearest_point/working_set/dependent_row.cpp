@@ -1,10 +1,10 @@
-#include "convex/nearest_point/active_set/dependent_row.hpp"
+#include "convex/nearest_point/working_set/dependent_row.hpp"
 
 #include <cmath>
 
 #include "convex/zero_tolerances.hpp"
 
-namespace convex::inline dual_active_set {
+namespace convex::inline working_set {
 namespace {
 
 /// Where s has no radii, the way goes on as if a gap of so many roundings were none; the end decides it
@@ -113,4 +113,4 @@ Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::S
   return weights;
 }
 
-}  // namespace convex::inline dual_active_set
+}  // namespace convex::inline working_set

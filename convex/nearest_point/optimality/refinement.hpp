@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
-namespace convex::inline dual_active_set {
+namespace convex::inline optimality {
 
 /// Corrections are made until what is left lies so far below the scale of the problem: the sixty bits that a
 /// rounded answer and the signs of its slacks can need.
@@ -89,4 +89,4 @@ Index most_negative(const WorkingSet& set, const RefinedPoint& refined);
 /// a small angle: that is added to `dropped` of the point. row_scale: ||u_a||_(D⁻¹), D the diagonal of A.
 Vector refined_slacks(WorkingSet& set, RefinedPoint& point, const Vector& row_scale);
 
-}  // namespace convex::inline dual_active_set
+}  // namespace convex::inline optimality

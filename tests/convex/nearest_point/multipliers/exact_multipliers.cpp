@@ -1,4 +1,4 @@
-#include "convex/nearest_point/proof/exact_multipliers.hpp"
+#include "convex/nearest_point/multipliers/exact_multipliers.hpp"
 
 #include <doctest/doctest.h>
 

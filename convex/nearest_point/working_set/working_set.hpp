@@ -7,7 +7,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex::inline dual_active_set {
+namespace convex::inline working_set {
 
 /// Whether factors of n·min(n, m) numbers are affordable. Beyond, methods and crossover go by sparse ones.
 bool is_dense_size(const NearestPointProblem&);
@@ -83,4 +83,4 @@ class WorkingSet {
   Vector w_free_, w_, lambda_;
 };
 
-}  // namespace convex::inline dual_active_set
+}  // namespace convex::inline working_set

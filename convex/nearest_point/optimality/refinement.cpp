@@ -1,4 +1,4 @@
-#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/refinement.hpp"
 
 #include <limits>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex::inline dual_active_set {
+namespace convex::inline optimality {
 namespace {
 
 /// When the first correction is this small a part of what it corrects, the second would be below `enough` by
@@ -145,4 +145,4 @@ Vector refined_slacks(WorkingSet& set, RefinedPoint& point, const Vector& row_sc
   return rest;
 }
 
-}  // namespace convex::inline dual_active_set
+}  // namespace convex::inline optimality

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/reductions/closed_form.hpp"
+#include "convex/nearest_point/methods/closed_form.hpp"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "convex/nearest_point/active_set/degenerate_rows.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 
-namespace convex::inline reductions {
+namespace convex::inline algorithms {
 
 std::optional<Solution> closed_form(const NearestPointProblem& problem, const Accuracy& accuracy) {
   invariant(problem.rows() <= 1, "the closed form is for at most one row");
@@ -34,12 +34,11 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
   if (!held && is_one_sided && rest[0] > 0)
     rest[0] = slack(problem, 0, point.q).value();
   else if (!held && is_one_sided &&
-           (rest[0] < 0 ||
-            (!problem.radii && !decide_degenerate_rows(set, point, row_scale, rest).empty())))
+           (rest[0] < 0 || (!problem.radii && !decide_degenerate_rows(set, point, row_scale, rest).empty())))
     return std::nullopt;
   Solution found = certified_answer(set, point, rest, row_scale, 0, accuracy, held ? 1 : 0);
   found.method = held ? "closed-form" : "unconstrained";
   return found;
 }
 
-}  // namespace convex::inline reductions
+}  // namespace convex::inline algorithms

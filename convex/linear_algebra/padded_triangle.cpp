@@ -1,11 +1,11 @@
-#include "convex/dense/padded_triangle.hpp"
+#include "convex/linear_algebra/padded_triangle.hpp"
 
 #include <cstdint>
 #include <new>
 
 #include "convex/linear_algebra/cholesky.hpp"
 
-namespace convex::inline dense {
+namespace convex::linear_algebra {
 namespace {
 
 /// From here on factoring by blocks of many columns, which keeps in the cache what it works on, is faster.
@@ -51,4 +51,4 @@ void PaddedTriangle::take_factor(const Matrix& L) {
   dense_kernels().invert_blocks(n_, ld_, T_, T_ + ld_ * ld_);
 }
 
-}  // namespace convex::inline dense
+}  // namespace convex::linear_algebra

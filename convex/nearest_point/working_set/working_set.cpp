@@ -1,10 +1,10 @@
-#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 #include <algorithm>
 
 #include "convex/infinity.hpp"
 
-namespace convex::inline dual_active_set {
+namespace convex::inline working_set {
 namespace {
 
 /// Below this part of |v_p| outside the span of S, doubles alone no longer tell how much is left, and the
@@ -149,4 +149,4 @@ void WorkingSet::correct(const Vector& g, Vector r2, Vector& dw, Vector& dlambda
   dlambda = r2;
 }
 
-}  // namespace convex::inline dual_active_set
+}  // namespace convex::inline working_set

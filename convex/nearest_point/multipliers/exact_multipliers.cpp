@@ -1,4 +1,4 @@
-#include "convex/nearest_point/proof/exact_multipliers.hpp"
+#include "convex/nearest_point/multipliers/exact_multipliers.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -11,7 +11,7 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
-namespace convex::inline proof {
+namespace convex::inline multiplier_sets {
 namespace {
 
 /// Of the expansions of d rows in k: each is the solution of a linear system, of d and n unknowns at most.
@@ -282,4 +282,4 @@ Multipliers rounded(const ExactMultipliers& exact) {
   return found;
 }
 
-}  // namespace convex::inline proof
+}  // namespace convex::inline multiplier_sets

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/reductions/common_size.hpp"
+#include "convex/nearest_point/common_size.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/nearest_point/reductions/scaled_problem.hpp"
 
-namespace convex::inline reductions {
+namespace convex {
 namespace {
 
 /// In common size, products of three numbers up to this, or down to its inverse, are doubles.
@@ -181,4 +181,4 @@ void take_own_size(const NearestPointProblem& problem, const Accuracy& accuracy,
   if (is_told(own) || !is_told(found)) found = std::move(own);
 }
 
-}  // namespace convex::inline reductions
+}  // namespace convex

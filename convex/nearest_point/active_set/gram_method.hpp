@@ -5,7 +5,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex::inline pivoting {
+namespace convex::inline dual_active_set {
 
 /// What the Gram matrix of whitened rows tells of a problem: the answer, if it is one; else the one-sided
 /// rows of the working set when it stopped in doubt.
@@ -29,4 +29,4 @@ bool has_gram_matrix(const NearestPointProblem&);
 /// The same problem with its diagonal metric as a dense one, which the kernels are made for.
 NearestPointProblem with_dense_metric(NearestPointProblem);
 
-}  // namespace convex::inline pivoting
+}  // namespace convex::inline dual_active_set

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
-namespace convex::inline proof {
+namespace convex::inline multiplier_sets {
 
 using ExactInterval = MultiplierRange<Fraction>;
 
@@ -34,4 +34,4 @@ double words_of_ranges(std::size_t multipliers, std::size_t dependent);
 /// The nearest doubles.
 Multipliers rounded(const ExactMultipliers&);
 
-}  // namespace convex::inline proof
+}  // namespace convex::inline multiplier_sets

@@ -1,11 +1,11 @@
-#include "convex/nearest_point/pivoting/gram_method.hpp"
+#include "convex/nearest_point/active_set/gram_method.hpp"
 
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/pivoting/factored_rows.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
 #include "convex/nearest_point/pivoting/swept_rows.hpp"
 
-namespace convex::inline pivoting {
+namespace convex::inline dual_active_set {
 namespace {
 
 /// Beyond, the arrays by eights are no longer what the caches hold.
@@ -58,4 +58,4 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
   return found;
 }
 
-}  // namespace convex::inline pivoting
+}  // namespace convex::inline dual_active_set

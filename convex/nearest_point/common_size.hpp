@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex::inline reductions {
+namespace convex {
 
 /// A problem with rows of length about 1 and the largest of A, z and of what rows ask for about 1, for
 /// numbers whose squares are not doubles: A = mass A', z = mass unit z', u_a = row_unit_a u'_a, s_a =
@@ -39,4 +39,4 @@ bool is_beyond_squares(const NearestPointProblem&, const Solution&);
 void take_own_size(const NearestPointProblem&, const Accuracy&,
                    Solution (*method)(const NearestPointProblem&, const Accuracy&), Solution&);
 
-}  // namespace convex::inline reductions
+}  // namespace convex

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "convex/infinity.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
-namespace convex::inline dual_active_set {
+namespace convex::inline working_set {
 
 /// Whether the coefficient r_k of a split, measured by its part r_k v_k of v_p, is rounding about zero.
 bool is_noise(const WorkingSet& set, Index k, const WorkingSet::Split& split);
@@ -39,4 +39,4 @@ bool is_flat_vertex(const WorkingSet& set, const WorkingSet::Split& split);
 /// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
 Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::Split& split, double sign);
 
-}  // namespace convex::inline dual_active_set
+}  // namespace convex::inline working_set

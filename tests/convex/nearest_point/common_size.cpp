@@ -1,4 +1,4 @@
-#include "convex/nearest_point/reductions/common_size.hpp"
+#include "convex/nearest_point/common_size.hpp"
 
 #include <doctest/doctest.h>
 
