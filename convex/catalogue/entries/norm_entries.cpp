@@ -1,11 +1,11 @@
-#include "convex/catalogue/catalogue.hpp"
-#include "convex/catalogue/routes.hpp"
+#include "convex/catalogue/entries/entries.hpp"
+#include "convex/catalogue/entries/routes.hpp"
 #include "convex/functions/log_sum_exp.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/sparse_norms.hpp"
 #include "convex/functions/spectral_norms.hpp"
 
-namespace convex {
+namespace convex::inline catalogue_entries {
 
 std::vector<CatalogueEntry> norm_entries() {
   using enum ParameterKind;
@@ -179,4 +179,4 @@ std::vector<CatalogueEntry> norm_entries() {
   };
 }
 
-}  // namespace convex
+}  // namespace convex::inline catalogue_entries

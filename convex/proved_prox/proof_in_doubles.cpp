@@ -1,4 +1,4 @@
-#include "convex/proved_prox/doubles/proof_in_doubles.hpp"
+#include "convex/proved_prox/proof_in_doubles.hpp"
 
 #include <cmath>
 
@@ -10,8 +10,10 @@
 #include "convex/proved_prox/doubles/metric_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 namespace {
+
+using near_graphs::MetricBounds, near_graphs::near_graph, near_graphs::NearGraph;
 
 /// Proofs of fewer digits are left to fractions and balls.
 constexpr double least_accuracy = 1e-10;
@@ -141,4 +143,4 @@ std::optional<ProvedSplit> proof_in_doubles(const RoundedQuestion& question, con
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "convex/functions/split_candidate.hpp"
+#include "convex/decompositions/split_candidate.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline decompositions {
 
 /// A split that the values bear out, from one look at f: the two proxes, or where the values of f and of its
 /// conjugate do not bear these out, another pair of a point and its covector near them. Its status is
@@ -14,4 +14,4 @@ Decomposition searched_split(const SplitFunctions& of, const Vector& z, const Me
 /// Does what the values leave open stay within the bound, and the bound within `enough`?
 bool is_borne_out(const SplitCandidate& made, double enough, double tolerance);
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace convex::inline composite {
+namespace convex::inline gamma0 {
 
 /// A bound on the work of one question, a decomposition, a prox or a value, counted and not timed, so that
 /// the same question has the same answer everywhere: evaluations of the functions of one variable whose roots
@@ -38,4 +38,4 @@ class WorkLimit {
   long end_;
 };
 
-}  // namespace convex::inline composite
+}  // namespace convex::inline gamma0

@@ -1,11 +1,11 @@
 #include <cmath>
 
-#include "convex/catalogue/catalogue.hpp"
+#include "convex/catalogue/entries/entries.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/takes_product.hpp"
 
-namespace convex {
+namespace convex::inline catalogue_entries {
 namespace {
 
 using enum ParameterKind;
@@ -120,7 +120,7 @@ std::vector<CatalogueEntry> operation_entries() {
        "by rule, else Moreau's identity",
        {"conjugate(norm1())", "conjugate(logistic())", "conjugate(sum(norm2(), hinge()))",
         "conjugate(conjugate(huber(0.5)))"},
-       [](const Arguments& a) { return conjugate_in(a.function("f"), a.space().product); }},
+       [](const Arguments& a) { return a.function("f").conjugate(a.space().product); }},
       {"envelope",
        operation,
        {{"f", function}, {"gamma", number, "1"}},
@@ -276,4 +276,4 @@ std::vector<CatalogueEntry> operation_entries() {
   };
 }
 
-}  // namespace convex
+}  // namespace convex::inline catalogue_entries

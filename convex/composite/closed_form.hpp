@@ -4,7 +4,7 @@
 #include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline composite {
 
 /// What rounding x and v to doubles, and a few roundings in their formulas, cost in ||x - x*||_W.
 inline constexpr double roundings_of_a_formula = 4;
@@ -20,4 +20,4 @@ Prox without_rounding_at_zero(Prox prox, const Facts& facts, const Vector& z, co
 /// W(x - z) + v in twice the working precision, rounded once: 0 at the exact solution.
 Vector stationarity(const Vector& z, const Metric& W, const Vector& x, const Vector& v);
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline composite

@@ -1,19 +1,19 @@
-#include "convex/functions/split_search.hpp"
+#include "convex/decompositions/split_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
-#include "convex/composite/work_limit.hpp"
-#include "convex/functions/closed_form.hpp"
-#include "convex/functions/cutting_planes.hpp"
+#include "convex/decompositions/cutting_planes.hpp"
 #include "convex/functions/other_pairs.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline decompositions {
 namespace {
 
 /// What each prox, each move into a domain and each other way to a pair may take of the work that a question
@@ -321,4 +321,4 @@ Decomposition searched_split(const SplitFunctions& of, const Vector& z, const Me
   return SplitSearch(of, z, W, tolerance, look).run();
 }
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

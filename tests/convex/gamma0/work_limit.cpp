@@ -1,4 +1,4 @@
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,17 +1,17 @@
-#include "convex/functions/split_candidate.hpp"
+#include "convex/decompositions/split_candidate.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
-#include "convex/composite/work_limit.hpp"
-#include "convex/functions/closed_form.hpp"
 #include "convex/functions/interior.hpp"
 #include "convex/functions/other_pairs.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/operations/tied_parts.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline decompositions {
 namespace {
 
 /// Values smaller than this count as this where the tolerance is relative to them.
@@ -271,4 +271,4 @@ bool is_inner_of_points(const Decomposition& split, double tolerance, const Metr
   return std::abs(W.inner(x, y) - split.inner) <= tolerance * size + rounding;
 }
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

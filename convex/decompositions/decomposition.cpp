@@ -5,17 +5,18 @@
 #include <limits>
 #include <utility>
 
-#include "convex/composite/work_limit.hpp"
-#include "convex/functions/closed_form.hpp"
-#include "convex/functions/cutting_planes.hpp"
+#include "convex/composite/closed_form.hpp"
+#include "convex/decompositions/cutting_planes.hpp"
+#include "convex/decompositions/split_search.hpp"
 #include "convex/functions/other_pairs.hpp"
-#include "convex/functions/split_search.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/nearest_point/solution.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/takes_product.hpp"
+#include "convex/proved_prox/doubles/metric_bounds.hpp"
 #include "convex/proved_prox/proved_split.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline decompositions {
 namespace {
 
 /// What cuts may take of the work that a question may.
@@ -51,7 +52,7 @@ constexpr double largest_size = 0x1p500;
 /// What rounded numbers may do in W, as a part: with k >= trace(W) / λ_min(W), a matrix whose entries are
 /// right to a rounding u is right to u k, as a part of W, and its inverse to u k².
 double rounding_of_numbers(const Metric& W) {
-  const double condition = W.diagonal().sum() / least_eigenvalue_below(gram(W));
+  const double condition = W.diagonal().sum() / near_graphs::least_eigenvalue_below(gram(W));
   return unit_roundoff * condition * condition;
 }
 
@@ -172,4 +173,4 @@ Decomposition decompose(const Function& f, const Vector& z, const Metric& W, dou
   return split;
 }
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

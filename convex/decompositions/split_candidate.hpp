@@ -5,7 +5,7 @@
 /// Pairs of points that may be a split, with the right side of
 ///   ½ ||x - x*||² + ½ ||y - y*||² <= f(x) + g(y) - (x|y) + ½ ||z - x - y||²
 /// (docs/theory.md, C.9) and how far it is known.
-namespace convex::inline named_functions {
+namespace convex::inline decompositions {
 
 /// The values, products and sums of the right side are each right to so many roundings of their terms.
 inline constexpr double roundings_of_a_term = 16;
@@ -65,4 +65,4 @@ std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x,
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
 bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W);
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

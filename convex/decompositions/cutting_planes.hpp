@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Proxes by cutting planes (Kelley 1960): f is seen through its values and subgradients alone.
-namespace convex::inline named_functions {
+namespace convex::inline decompositions {
 
 /// Where the parts of a maximum meet beside a point: the least f + ½||. - z||² + ½(stiffness - 1)||. -
 /// near||² by cutting planes (Kelley 1960), so near that the parts are lines. Where they meet is known to
@@ -23,4 +23,4 @@ std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, 
 std::optional<Prox> prox_by_cuts(const Function& f, const Vector& x_0, const Vector& z, const Metric& W,
                                  double enough, const Look& look);
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

@@ -5,7 +5,7 @@
 #include "convex/functions/decomposition.hpp"
 #include "convex/proved_prox/proved_split.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// A question in doubles: z and W are meant to some error, which is 0 where the doubles themselves are.
 struct RoundedQuestion {
@@ -20,4 +20,4 @@ struct RoundedQuestion {
 /// where a function has no formula in doubles, or the pairs are not near enough for ten digits.
 std::optional<ProvedSplit> proof_in_doubles(const RoundedQuestion&, const Decomposition& split);
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

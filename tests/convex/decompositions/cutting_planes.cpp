@@ -1,4 +1,4 @@
-#include "convex/functions/cutting_planes.hpp"
+#include "convex/decompositions/cutting_planes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
-#include "convex/catalogue/catalogue.hpp"
-#include "convex/catalogue/routes.hpp"
+#include "convex/catalogue/entries/entries.hpp"
+#include "convex/catalogue/entries/routes.hpp"
 #include "convex/functions/sets.hpp"
 
-namespace convex {
+namespace convex::inline catalogue_entries {
 
 std::vector<CatalogueEntry> cone_entries() {
   using enum ParameterKind;
@@ -91,4 +91,4 @@ std::vector<CatalogueEntry> cone_entries() {
   };
 }
 
-}  // namespace convex
+}  // namespace convex::inline catalogue_entries

@@ -1,8 +1,8 @@
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 
 #include <algorithm>
 
-namespace convex::inline composite {
+namespace convex::inline gamma0 {
 namespace {
 
 /// Two or three seconds; a question with one root in another takes some ten thousand.
@@ -35,4 +35,4 @@ double WorkLimit::rest() {
 
 bool WorkLimit::passed() { return innermost && evaluations > innermost->end_; }
 
-}  // namespace convex::inline composite
+}  // namespace convex::inline gamma0

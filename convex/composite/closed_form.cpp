@@ -1,12 +1,12 @@
-#include "convex/functions/closed_form.hpp"
+#include "convex/composite/closed_form.hpp"
 
 #include "convex/composite/metric_difference.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline composite {
 namespace {
 
 /// What refinement in twice the working precision leaves of ||z||_W where 0 is meant.
-constexpr double rounding_of_rounding = 0x1p-96;
+constexpr double rounding_about_zero = 0x1p-96;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ Vector stationarity(const Vector& z, const Metric& W, const Vector& x, const Vec
 Prox without_rounding_at_zero(Prox prox, const Facts& facts, const Vector& z, const Metric& W) {
   if (!(facts.cone || facts.support) || prox.x.size() != z.size()) return prox;
   const double size = W.norm(prox.x);
-  if (size == 0 || !(size <= rounding_of_rounding * W.norm(z))) return prox;
+  if (size == 0 || !(size <= rounding_about_zero * W.norm(z))) return prox;
   prox.x.setZero();
   prox.error_bound += size;
   return prox;
@@ -35,4 +35,4 @@ Prox closed_form(const Vector& z, const Metric& W, Vector x, Vector v) {
   return result;
 }
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline composite

@@ -1,10 +1,10 @@
-#include "convex/catalogue/catalogue.hpp"
-#include "convex/catalogue/routes.hpp"
+#include "convex/catalogue/entries/entries.hpp"
+#include "convex/catalogue/entries/routes.hpp"
 #include "convex/functions/sets.hpp"
 #include "convex/functions/sparse_norms.hpp"
 #include "convex/functions/spectral_norms.hpp"
 
-namespace convex {
+namespace convex::inline catalogue_entries {
 
 std::vector<CatalogueEntry> set_entries() {
   using enum ParameterKind;
@@ -239,4 +239,4 @@ std::vector<CatalogueEntry> set_entries() {
   return entries;
 }
 
-}  // namespace convex
+}  // namespace convex::inline catalogue_entries

@@ -1,14 +1,12 @@
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 #include <cmath>
 #include <string>
 
-#include "convex/composite/work_limit.hpp"
-#include "convex/functions/closed_form.hpp"
 #include "convex/gamma0/node.hpp"
-#include "convex/operations/operations.hpp"
+#include "convex/gamma0/work_limit.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline gamma0 {
 namespace {
 
 /// Of the work of a question, what a value by itself may take.
@@ -89,8 +87,6 @@ Prox Function::prox(const Vector& z, const Metric& W, const Look& look) const {
 
 Function Function::conjugate() const { return node_->conjugate(); }
 
-Function Function::conjugate(const Metric& W) const { return conjugate_in(*this, W); }
-
 std::optional<Vector> Function::subgradient(const Vector& x) const {
   check(*this, x, "x");
   return node_->subgradient(x);
@@ -106,4 +102,4 @@ bool Function::is_subgradient(const Vector& v, const Vector& x) const {
   return (back.x - x).norm() <= membership_tolerance * (x.norm() + v.norm());
 }
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline gamma0

@@ -1,11 +1,11 @@
-#include "convex/catalogue/catalogue.hpp"
-#include "convex/catalogue/routes.hpp"
+#include "convex/catalogue/entries/entries.hpp"
+#include "convex/catalogue/entries/routes.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/quadratic.hpp"
 #include "convex/functions/separable_functions.hpp"
 #include "convex/functions/sets.hpp"
 
-namespace convex {
+namespace convex::inline catalogue_entries {
 
 std::vector<CatalogueEntry> function_entries() {
   using enum ParameterKind;
@@ -280,4 +280,4 @@ std::vector<CatalogueEntry> function_entries() {
   return entries;
 }
 
-}  // namespace convex
+}  // namespace convex::inline catalogue_entries

@@ -1,18 +1,18 @@
-#include "convex/functions/cutting_planes.hpp"
+#include "convex/decompositions/cutting_planes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "convex/composite/metric_difference.hpp"
-#include "convex/composite/work_limit.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/sum.hpp"
 
-namespace convex::inline named_functions {
+namespace convex::inline decompositions {
 namespace {
 
 constexpr Index most_entries = 16;
@@ -252,4 +252,4 @@ std::optional<Prox> prox_by_cuts(const Function& f, const Vector& x_0, const Vec
   return SearchByCuts(f, x_0, z, W, look).run(enough);
 }
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

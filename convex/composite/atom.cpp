@@ -1,14 +1,15 @@
+#include "convex/composite/atom.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/composite_prox.hpp"
-#include "convex/functions/closed_form.hpp"
-#include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
-namespace convex::inline gamma0 {
+namespace convex::inline composite {
 namespace {
 
 /// D when W is the diagonal matrix D; a dense or sparse matrix may be diagonal too. Empty otherwise.
@@ -92,7 +93,7 @@ Prox Atom::prox(const Vector& z, const Metric& W, const Look& look) const {
   if (std::optional<Prox> own = prox_general(z, W)) return *own;
   const std::optional<LinearQuadratic> form = linear_quadratic(z.size());
   return without_rounding_at_zero(
-      form ? convex::prox(*form, z, W) : convex::prox(*graph(z.size()), z, W, look), facts(), z, W);
+      form ? linear_quadratic::prox(*form, z, W) : convex::prox(*graph(z.size()), z, W, look), facts(), z, W);
 }
 
 std::optional<GraphForm> Atom::graph(Index n, double) const {
@@ -102,4 +103,4 @@ std::optional<GraphForm> Atom::graph(Index n, double) const {
       n, 0, {{std::static_pointer_cast<const Atom>(shared_from_this()), 1, identity, Vector::Zero(n)}}, 0};
 }
 
-}  // namespace convex::inline gamma0
+}  // namespace convex::inline composite
