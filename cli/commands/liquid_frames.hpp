@@ -6,7 +6,7 @@
 #include "cli/sweep/sweep_range.hpp"
 #include "mechanics/liquid/liquid_text.hpp"
 
-namespace cli::inline reports {
+namespace cli::inline commands {
 
 /// The page of `--animate F.html --over NAME=first:step:last`: a liquid solved at each value of a parameter.
 class LiquidFrames {
@@ -24,4 +24,4 @@ class LiquidFrames {
   SweepRange range_;
 };
 
-}  // namespace cli::inline reports
+}  // namespace cli::inline commands

@@ -6,7 +6,7 @@
 
 #include "convex/vector.hpp"
 
-namespace cli::inline reports {
+namespace cli {
 
 /// Writes one JSON value on one line. Numbers are the shortest digits that read back to the same double; an
 /// infinite one is "inf" or "-inf".
@@ -41,4 +41,4 @@ class JsonWriter {
   bool needs_comma_ = false;
 };
 
-}  // namespace cli::inline reports
+}  // namespace cli

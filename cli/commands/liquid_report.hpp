@@ -9,7 +9,7 @@
 #include "mechanics/liquid/liquid_solution.hpp"
 #include "mechanics/liquid/onset.hpp"
 
-namespace cli::inline reports {
+namespace cli::inline commands {
 
 /// What is asked of a liquid beside its pressure.
 struct LiquidRequest {
@@ -54,4 +54,4 @@ std::vector<std::string> liquid_warnings(const SolvedLiquid&);
 
 std::string liquid_text(const SolvedLiquid&);
 
-}  // namespace cli::inline reports
+}  // namespace cli::inline commands

@@ -1,20 +1,20 @@
-#include "cli/report/liquid_report.hpp"
+#include "cli/commands/liquid_report.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cmath>
 
+#include "cli/commands/liquid_frames.hpp"
 #include "cli/drawing/liquid_drawing.hpp"
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/liquid_files.hpp"
-#include "cli/report/liquid_frames.hpp"
 #include "cli/report/solve_progress.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "mechanics/liquid/liquid_language.hpp"
 
-namespace cli::inline reports {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -312,4 +312,4 @@ std::string liquid_text(const SolvedLiquid& solved) {
                                                : fmt::format("p is known to {:.1e}.\n", found.error_bound));
 }
 
-}  // namespace cli::inline reports
+}  // namespace cli::inline commands

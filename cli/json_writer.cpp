@@ -1,11 +1,11 @@
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace cli::inline reports {
+namespace cli {
 namespace {
 
 /// Bytes of the first character, 0 where they are no UTF-8 (RFC 3629, section 4).
@@ -123,4 +123,4 @@ void JsonWriter::quote(std::string_view text) {
   text_ += '"';
 }
 
-}  // namespace cli::inline reports
+}  // namespace cli

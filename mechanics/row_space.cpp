@@ -1,13 +1,13 @@
-#include "mechanics/singular/row_space.hpp"
+#include "mechanics/row_space.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace mechanics::inline singular_states {
+namespace mechanics {
 namespace {
 
 /// Roundings of the products and sums of an expansion, relative to the lengths of the rows in it.
-double rounding_part(Index kept, Index columns) {
+double rounding_of_expansion(Index kept, Index columns) {
   return 8 * 0x1p-53 * (static_cast<double>(kept) + std::sqrt(static_cast<double>(columns)) + 1);
 }
 
@@ -23,7 +23,7 @@ RowSpace::Expansion RowSpace::expansion(const Vector& row, double radius) const 
       found.rest -= along * basis_[static_cast<std::size_t>(p)];
       found.coefficients.head(p + 1) += along * by_rows_[static_cast<std::size_t>(p)];
     }
-  const double part = rounding_part(kept, columns_);
+  const double part = rounding_of_expansion(kept, columns_);
   found.bound = radius + part * row.norm();
   for (Index j = 0; j < kept; ++j) {
     const auto row_j = static_cast<std::size_t>(j);
@@ -86,4 +86,4 @@ SplitRows split_rows(const RowMatrix& rows, const Vector& radius, RowSpace& spac
   return found;
 }
 
-}  // namespace mechanics::inline singular_states
+}  // namespace mechanics

@@ -1,10 +1,10 @@
-#include "cli/report/liquid_frames.hpp"
+#include "cli/commands/liquid_frames.hpp"
 
 #include "cli/drawing/liquid_animation.hpp"
 #include "cli/measurement/progress.hpp"
 #include "cli/problem_file/documents.hpp"
 
-namespace cli::inline reports {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -55,4 +55,4 @@ void LiquidFrames::write(const std::string& title) const {
   write_file(file_, animation.page(title));
 }
 
-}  // namespace cli::inline reports
+}  // namespace cli::inline commands

@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace mechanics::inline singular_states {
+namespace mechanics {
 
 using convex::Index;
 using convex::Matrix;
@@ -48,4 +48,4 @@ struct SplitRows {
 };
 SplitRows split_rows(const RowMatrix& rows, const Vector& radius, RowSpace& space);
 
-}  // namespace mechanics::inline singular_states
+}  // namespace mechanics
