@@ -2,12 +2,19 @@
 #include "tests/this_build.hpp"
 
 #include <fstream>
+#include <regex>
 
 namespace fs = std::filesystem;
 
 namespace tests {
 
 fs::path source_root() { return tests::source_folder(); }
+
+std::string included(const std::string& line) {
+  static const std::regex pattern("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
+  std::smatch match;
+  return std::regex_search(line, match, pattern) ? match[1].str() : "";
+}
 
 std::vector<SourceFile> source_files() {
   std::vector<SourceFile> found;

@@ -14,6 +14,9 @@ struct SourceFile {
   bool is_header() const { return path.ends_with(".hpp"); }
 };
 
+/// What a line includes, without brackets or quotes; "" when it includes nothing.
+std::string included(const std::string& line);
+
 /// The folder of the project.
 std::filesystem::path source_root();
 
