@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <new>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace cli {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 
 namespace cli {
 namespace {

@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
-#include "convex/dense/padded_triangle.hpp"
 #include "convex/dense/recycled.hpp"
 #include "convex/dense/triangular_solve.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
+#include "convex/linear_algebra/padded_triangle.hpp"
 #include "convex/processor.hpp"
 #include "convex/sparse_gram.hpp"
 
@@ -126,9 +126,9 @@ Index count_positive(Index n, const double* x) {
 
 struct Metric::Data {
   MetricKind kind = MetricKind::identity;
-  Vector diagonal;          // of W
-  Matrix W;                 // kind dense
-  PaddedTriangle triangle;  // kind dense
+  Vector diagonal;                          // of W
+  Matrix W;                                 // kind dense
+  linear_algebra::PaddedTriangle triangle;  // kind dense
   std::optional<SparseGram> sparse;
   double factor_condition = 1;
 
@@ -241,7 +241,7 @@ double Metric::factor_condition() const {
 
 DenseFactor Metric::dense_factor() const {
   invariant(data_->kind == MetricKind::dense, "a dense factor is asked of a dense metric");
-  const PaddedTriangle& factor = data_->triangle;
+  const linear_algebra::PaddedTriangle& factor = data_->triangle;
   return {factor.ld(), factor.T(), factor.inverse()};
 }
 

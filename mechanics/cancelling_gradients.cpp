@@ -8,7 +8,7 @@
 #include "mechanics/evaluation_error.hpp"
 #include "mechanics/expression/constraint_series.hpp"
 #include "mechanics/number_text.hpp"
-#include "mechanics/singular/row_space.hpp"
+#include "mechanics/row_space.hpp"
 
 namespace mechanics {
 namespace {
@@ -56,7 +56,7 @@ std::optional<Weights> weights_of(const TightRows& tight, std::vector<std::size_
       std::find_if(circuit.begin(), circuit.end(), [&](std::size_t k) { return !tight.two_sided[k]; });
   if (main == circuit.end()) return std::nullopt;
   std::iter_swap(main, circuit.end() - 1);
-  singular_states::RowSpace space(tight.U.cols());
+  RowSpace space(tight.U.cols());
   for (const std::size_t k : circuit) {
     const auto row = static_cast<Index>(k);
     const auto expansion = space.expansion(tight.U.row(row).transpose(), tight.radius[row]);

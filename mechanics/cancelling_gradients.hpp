@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/solution.hpp"
-#include "mechanics/singular/singular_group.hpp"
+#include "mechanics/added_row.hpp"
 #include "mechanics/warning.hpp"
 #include "mechanics/written_mechanism.hpp"
 

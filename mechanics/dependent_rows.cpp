@@ -1,6 +1,6 @@
 #include "mechanics/dependent_rows.hpp"
 
-#include "mechanics/singular/row_space.hpp"
+#include "mechanics/row_space.hpp"
 
 namespace mechanics {
 

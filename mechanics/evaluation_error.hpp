@@ -1,7 +1,7 @@
 #pragma once
 
+#include "mechanics/added_row.hpp"
 #include "mechanics/gauss_solution.hpp"
-#include "mechanics/singular/singular_group.hpp"
 #include "mechanics/written_mechanism.hpp"
 
 namespace mechanics {

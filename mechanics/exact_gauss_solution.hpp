@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "convex/nearest_point/proof/exact_multipliers.hpp"
+#include "convex/nearest_point/multipliers/exact_multipliers.hpp"
 #include "mechanics/gauss_solution.hpp"
 
 namespace mechanics {

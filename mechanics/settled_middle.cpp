@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "mechanics/singular/row_space.hpp"
+#include "mechanics/row_space.hpp"
 
 namespace mechanics {
 namespace {

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace mechanics {
 namespace {

@@ -8,15 +8,15 @@
 #include <cstdio>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/commands/symbols.hpp"
 #include "cli/each_file.hpp"
 #include "cli/function_language/domain_text.hpp"
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/conjugate_formula.hpp"
-#include "cli/report/json_writer.hpp"
-#include "cli/report/symbolic_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/proved_prox/proved_conjugate.hpp"

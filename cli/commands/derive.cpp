@@ -6,12 +6,12 @@
 
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/problem_file/documents.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/appell_function.hpp"
 #include "cli/report/equation_code.hpp"
 #include "cli/report/equation_latex.hpp"
-#include "cli/report/json_writer.hpp"
 #include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/resolved_scene.hpp"

@@ -5,12 +5,12 @@
 #include <fstream>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/commands/liquid_report.hpp"
 #include "cli/each_file.hpp"
 #include "cli/motion_settings.hpp"
 #include "cli/report/cone_report.hpp"
 #include "cli/report/decomposition_report.hpp"
 #include "cli/report/explanation.hpp"
-#include "cli/report/liquid_report.hpp"
 #include "cli/report/singular_report.hpp"
 #include "cli/resolved_scene.hpp"
 

@@ -8,11 +8,11 @@
 
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/measurement/problem_library.hpp"
 #include "cli/measurement/progress.hpp"
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/write_projection.hpp"
-#include "cli/report/json_writer.hpp"
 #include "cli/report/library_files.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/invalid_input.hpp"

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "cli/commands/command_line.hpp"
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "convex/nearest_point/methods.hpp"
 
 namespace cli::inline commands {

@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "cli/commands/followed_branch.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/motion_files.hpp"
 #include "cli/motion_settings.hpp"
-#include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 
 namespace cli::inline commands {

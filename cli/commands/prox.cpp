@@ -9,12 +9,12 @@
 #include <string>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/commands/symbols.hpp"
 #include "cli/each_file.hpp"
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/decomposition_report.hpp"
-#include "cli/report/json_writer.hpp"
-#include "cli/report/symbolic_report.hpp"
 #include "convex/operations/takes_product.hpp"
 
 namespace cli::inline commands {

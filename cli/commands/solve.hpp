@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "cli/commands/liquid_report.hpp"
 #include "cli/options.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "cli/report/answer.hpp"
-#include "cli/report/liquid_report.hpp"
 
 namespace cli::inline commands {
 

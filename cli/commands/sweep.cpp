@@ -11,11 +11,11 @@
 #include "cli/commands/command_line.hpp"
 #include "cli/drawing/sweep_drawing.hpp"
 #include "cli/each_file.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/measurement/progress.hpp"
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/settings.hpp"
 #include "cli/report/answer.hpp"
-#include "cli/report/json_writer.hpp"
 #include "cli/sweep/change_search.hpp"
 #include "cli/sweep/sweep_table.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/json_writer.hpp"
 #include "cli/motion_files.hpp"
-#include "cli/report/json_writer.hpp"
 
 namespace cli::inline drawings {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "cli/drawing/liquid_section.hpp"
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 
 namespace cli::inline drawings {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "convex/laws/trial.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"

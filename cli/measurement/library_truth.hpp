@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/measurement/problem_library.hpp"
-#include "convex/nearest_point/proof/exact_multipliers.hpp"
+#include "convex/nearest_point/multipliers/exact_multipliers.hpp"
 
 namespace cli::inline measurement {
 

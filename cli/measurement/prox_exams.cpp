@@ -75,7 +75,8 @@ std::vector<Contest> every_way(ProxExam given) {
       {"auto", direct, "", [exam](double) { return found(exam->f.prox(exam->z, anew(exam->W))); }});
   const bool has_form = exam->f.node().linear_quadratic(n).has_value();
   ways.push_back({"active-set", direct, has_form ? "" : "not piecewise quadratic", [exam, n](double) {
-                    return found(convex::prox(*exam->f.node().linear_quadratic(n), exam->z, anew(exam->W)));
+                    return found(convex::linear_quadratic::prox(*exam->f.node().linear_quadratic(n), exam->z,
+                                                                anew(exam->W)));
                   }});
   const bool has_graph = exam->f.node().graph(n).has_value();
   ways.push_back({"iterative", direct, has_graph ? "" : "no graph form", [exam, n](double) {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "cli/json_writer.hpp"
 #include "cli/measurement/machine.hpp"
-#include "cli/report/json_writer.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace cli::inline measurement {

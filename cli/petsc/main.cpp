@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/json_writer.hpp"
 #include "cli/petsc/distributed_liquid.hpp"
-#include "cli/report/json_writer.hpp"
 #include "cli/scene.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
+#include "cli/json_writer.hpp"
 #include "cli/report/atlas_report.hpp"
-#include "cli/report/json_writer.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 
 namespace cli::inline reports {

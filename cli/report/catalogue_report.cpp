@@ -6,7 +6,7 @@
 
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "convex/catalogue/references.hpp"
 
 namespace cli::inline reports {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 
 namespace cli::inline reports {
 

@@ -5,9 +5,11 @@
 #include "cli/report/answer.hpp"
 #include "convex/laws/check.hpp"
 
-namespace cli::inline reports {
-
+namespace cli {
 class JsonWriter;
+}
+
+namespace cli::inline reports {
 
 /// The keys `checks` and `no_evidence` of docs/problem-files.md, into the object that is open.
 void write_checks(JsonWriter&, const convex::LawReport&);

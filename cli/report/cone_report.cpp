@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "convex/cones/cone_operations.hpp"

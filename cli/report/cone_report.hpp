@@ -8,9 +8,11 @@
 #include "convex/cones/cone_split.hpp"
 #include "convex/cones/polyhedral_cone.hpp"
 
-namespace cli::inline reports {
-
+namespace cli {
 class JsonWriter;
+}
+
+namespace cli::inline reports {
 
 /// A cone by both descriptions with its polar, and the point split between them.
 struct SolvedCone {

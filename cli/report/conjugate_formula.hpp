@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 namespace cli::inline reports {
 

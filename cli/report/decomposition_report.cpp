@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/proved_prox/proved_metric.hpp"

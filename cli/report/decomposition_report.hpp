@@ -8,9 +8,11 @@
 #include "convex/functions/decomposition.hpp"
 #include "convex/proved_prox/proved_split.hpp"
 
-namespace cli::inline reports {
-
+namespace cli {
 class JsonWriter;
+}
+
+namespace cli::inline reports {
 
 /// A point split in two, as its reports need it.
 struct SplitPoint {

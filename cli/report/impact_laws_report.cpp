@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "cli/json_writer.hpp"
 #include "cli/motion_files.hpp"
 #include "cli/report/answer.hpp"
-#include "cli/report/json_writer.hpp"
 #include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 #include "mechanics/motion/impulses.hpp"

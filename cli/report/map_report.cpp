@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/symbolic_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/symbolic/function.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/solve_report.hpp"
 
 namespace cli::inline reports {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/solve_report.hpp"
 
 namespace cli::inline reports {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "mechanics/branch_edges.hpp"

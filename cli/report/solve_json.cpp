@@ -1,7 +1,7 @@
 #include <numeric>
 
+#include "cli/json_writer.hpp"
 #include "cli/report/exact_json.hpp"
-#include "cli/report/json_writer.hpp"
 #include "cli/report/model_report.hpp"
 #include "cli/report/sensitivity_json.hpp"
 #include "cli/report/singular_report.hpp"

@@ -6,9 +6,11 @@
 #include "cli/scene.hpp"
 #include "mechanics/warning.hpp"
 
-namespace cli::inline reports {
-
+namespace cli {
 class JsonWriter;
+}
+
+namespace cli::inline reports {
 
 /// Whether a constraint persists, does so without pressing for any choice of multipliers, opens, or is not in
 /// K.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/json_writer.hpp"
+#include "cli/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 

@@ -7,7 +7,7 @@
 #include "convex/invariant.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace convex {
+namespace convex::inline function_catalogue {
 namespace {
 
 std::string signature(const CatalogueEntry& entry) {
@@ -193,4 +193,4 @@ std::vector<Function> Arguments::functions(std::string_view parameter) const {
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline function_catalogue

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
+#include "convex/catalogue/entries/entries.hpp"
 #include "convex/gamma0/node.hpp"
 
-namespace convex {
+namespace convex::inline function_catalogue {
 namespace {
 
 const CatalogueEntry& entry_of(const Call& call) {
@@ -72,4 +73,4 @@ Set make_set(const Call& call, const Space& space) {
   return {indicator, call};
 }
 
-}  // namespace convex
+}  // namespace convex::inline function_catalogue

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
-namespace convex {
+namespace convex::inline function_catalogue {
 
 /// What a name of the language stands for.
 enum class EntryKind { set, function, operation };
@@ -46,13 +46,6 @@ struct CatalogueEntry {
 
 /// Every set, function and operation, in the order of the documentation.
 std::span<const CatalogueEntry> catalogue();
-
-/// The parts of the catalogue, each at home with what it makes.
-std::vector<CatalogueEntry> set_entries();
-std::vector<CatalogueEntry> cone_entries();
-std::vector<CatalogueEntry> function_entries();
-std::vector<CatalogueEntry> norm_entries();
-std::vector<CatalogueEntry> operation_entries();
 
 /// The entry of that name, or null.
 const CatalogueEntry* find_entry(std::string_view name);
@@ -114,4 +107,4 @@ class Arguments {
 Function make_function(const Call& call, const Space& space);
 Set make_set(const Call& call, const Space& space);
 
-}  // namespace convex
+}  // namespace convex::inline function_catalogue

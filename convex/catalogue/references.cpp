@@ -5,7 +5,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline function_catalogue {
 namespace {
 
 constexpr Reference works[] = {
@@ -156,4 +156,4 @@ std::vector<Reference> references_of(std::string_view source) {
   return cited;
 }
 
-}  // namespace convex
+}  // namespace convex::inline function_catalogue

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace convex {
+namespace convex::inline function_catalogue {
 
 /// A work that the catalogue cites: "Condat 2016", and where to find it.
 struct Reference {
@@ -18,4 +18,4 @@ std::span<const Reference> references();
 /// each of its parts with a year in it. InvalidInput when one is not among `references()`.
 std::vector<Reference> references_of(std::string_view source);
 
-}  // namespace convex
+}  // namespace convex::inline function_catalogue

@@ -1,7 +1,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace convex {
+namespace convex::inline function_catalogue {
 namespace {
 
 /// What other languages and fields call an entry of the catalogue.
@@ -112,4 +112,4 @@ std::string unknown_entry(std::string_view name) {
          "`moreau functions` lists them";
 }
 
-}  // namespace convex
+}  // namespace convex::inline function_catalogue

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 
 /// The atoms that operations on graph forms need, with closed conjugates among themselves.
 namespace convex::inline composite {

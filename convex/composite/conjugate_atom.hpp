@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 
 namespace convex::inline composite {
 

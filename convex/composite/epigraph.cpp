@@ -5,7 +5,7 @@
 #include "convex/composite/conjugate_atom.hpp"
 #include "convex/composite/monotone_root.hpp"
 #include "convex/composite/perspective.hpp"
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 
 namespace convex::inline composite {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 
 namespace convex::inline composite {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 
 namespace convex::inline composite {
 

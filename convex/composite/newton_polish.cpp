@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "convex/composite/newton_system.hpp"
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 
 namespace convex::inline composite {
 namespace {

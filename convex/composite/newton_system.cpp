@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 
 namespace convex::inline composite {
 namespace {

@@ -6,7 +6,7 @@
 #include "convex/composite/conjugate_atom.hpp"
 #include "convex/composite/epigraph.hpp"
 #include "convex/composite/monotone_root.hpp"
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 
 namespace convex::inline composite {

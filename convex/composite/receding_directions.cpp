@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "convex/composite/epigraph.hpp"
-#include "convex/composite/work_limit.hpp"
 #include "convex/exact_program/exact_minimum.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 
 namespace convex::inline composite {

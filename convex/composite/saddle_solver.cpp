@@ -6,7 +6,7 @@
 #include "convex/composite/multiplier_step.hpp"
 #include "convex/composite/newton_polish.hpp"
 #include "convex/composite/saddle_error.hpp"
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 
 namespace convex::inline composite {

@@ -6,7 +6,7 @@
 
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 namespace {
 
 using Exact = CGAL::Gmpz;
@@ -73,4 +73,4 @@ CgalAnswer cgal_minimum(const ExactProgram& f) {
   return answer;
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

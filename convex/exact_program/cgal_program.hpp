@@ -2,7 +2,7 @@
 
 #include "convex/exact_program/exact_minimum.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 /// min ½ ξ·Hξ + c·ξ over the rows by CGAL's simplex method for quadratic programs, in integers (Gärtner and
 /// Schönherr 2000): ξ and the multipliers of the rows. What it says of ξ and lambda is for the caller to
@@ -13,4 +13,4 @@ struct CgalAnswer {
 };
 CgalAnswer cgal_minimum(const ExactProgram& f);
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

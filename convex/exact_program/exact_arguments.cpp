@@ -5,7 +5,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 namespace {
 
 ExtendedFraction exact_entry(const NamedArgument& argument, double value, std::size_t k) {
@@ -96,4 +96,4 @@ std::vector<const Call*> ExactArguments::calls() const {
   return nested;
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

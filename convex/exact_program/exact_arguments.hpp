@@ -5,7 +5,7 @@
 #include "convex/exact_program/exact_program.hpp"
 #include "convex/gamma0/call.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 /// A fraction, or an infinite number with its sign.
 struct ExtendedFraction {
@@ -39,4 +39,4 @@ class ExactArguments {
   std::size_t n_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

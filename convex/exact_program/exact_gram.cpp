@@ -1,6 +1,6 @@
 #include "convex/exact_program/exact_gram.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 ExactGram exact_gram(const Metric& W) {
   ExactGram made;
@@ -81,4 +81,4 @@ Fractions multiply(const ExactGram& W, const Fractions& x) {
 
 Fraction squared_norm(const ExactGram& W, const Fractions& x) { return dot(x, multiply(W, x)); }
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

@@ -3,7 +3,7 @@
 #include "convex/exact_program/exact_program.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 /// The Gram matrix W of a metric in fractions, by rows of its nonzero entries.
 struct ExactGram {
@@ -30,4 +30,4 @@ Fractions multiply(const ExactGram& W, const Fractions& x);
 /// x·Wx.
 Fraction squared_norm(const ExactGram& W, const Fractions& x);
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

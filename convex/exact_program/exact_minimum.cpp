@@ -10,7 +10,7 @@
 #include "convex/invariant.hpp"
 #include "convex/linear_quadratic/minimise.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 namespace {
 
 /// Rows taken in or dropped before CGAL is asked.
@@ -139,9 +139,10 @@ Vector nearest_of(const Fractions& x) {
 }
 
 /// What doubles find of ½||x - z||_W² + f; none when they fail.
-std::optional<ProgramPoint> in_doubles(const ExactProgram& f, const Metric& W, const Vector& z) {
+std::optional<linear_quadratic::ProgramPoint> in_doubles(const ExactProgram& f, const Metric& W,
+                                                         const Vector& z) {
   try {
-    ProgramPoint point = minimise(rounded(f), W, z);
+    linear_quadratic::ProgramPoint point = minimise(rounded(f), W, z);
     if (point.xi.size() == static_cast<Index>(f.variables()) && point.xi.allFinite() &&
         point.lambda.size() == static_cast<Index>(f.rows.size()) && point.lambda.allFinite())
       return point;
@@ -342,4 +343,4 @@ ExactValue exact_value(const ExactProgram& f, const Fractions& x) {
   return {ProgramEnd::minimum, found.at->f_x};
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

@@ -4,7 +4,7 @@
 
 #include "convex/exact_program/exact_gram.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 /// A point of the graph of the subdifferential of a program f: ξ = (x, w) and multipliers with
 ///   Gξ >= h,  lambda >= 0 (one-sided rows),  (Hξ + c - Gᵀlambda) = (v, 0),
@@ -58,4 +58,4 @@ struct ExactValue {
 };
 ExactValue exact_value(const ExactProgram& f, const Fractions& x);
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

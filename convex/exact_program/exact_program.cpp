@@ -1,6 +1,6 @@
 #include "convex/exact_program/exact_program.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 namespace {
 
 /// Σ a_j b_j over the least common denominator so far: common factors are looked for once, at the end.
@@ -124,4 +124,4 @@ ExactProgram add_joint(ExactProgram f, const ExactProgram& g) {
   return f;
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

@@ -6,7 +6,7 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 using Fractions = std::vector<Fraction>;
 
@@ -73,4 +73,4 @@ ExactProgram substitute(const ExactProgram& f, const std::vector<ExactAffine>& m
 /// F + G of the same variables.
 ExactProgram add_joint(ExactProgram f, const ExactProgram& g);
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

@@ -3,7 +3,7 @@
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
 
-namespace convex::exact_programs {
+namespace convex::inline exact_programs {
 namespace {
 
 const Fraction zero{0}, one{1}, half{1, 2};
@@ -249,4 +249,4 @@ std::optional<ExactProgram> of_function(const Call& call, std::size_t n) {
   return std::nullopt;
 }
 
-}  // namespace convex::exact_programs
+}  // namespace convex::inline exact_programs

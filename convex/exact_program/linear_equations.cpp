@@ -8,15 +8,16 @@
 #include "convex/exact/integer_system.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 namespace {
 
 /// Full systems from this size on are lifted modulo a prime (Dixon 1982).
 constexpr std::size_t least_lifted = 24;
 
 std::size_t nonzeros(const std::vector<ExactEquation>& equations) {
-  return std::accumulate(equations.begin(), equations.end(), std::size_t{0},
-                         [](std::size_t sum, const ExactEquation& one) { return sum + one.row.size(); });
+  return std::accumulate(
+      equations.begin(), equations.end(), std::size_t{0},
+      [](std::size_t sum, const ExactEquation& equation) { return sum + equation.row.size(); });
 }
 
 /// The unique solution of a square system; none when it is singular.
@@ -142,8 +143,8 @@ class Elimination {
 
   std::size_t rarest(const ExactRow& row) const {
     return std::min_element(row.begin(), row.end(),
-                            [&](const auto& one, const auto& other) {
-                              return in_rows_[one.first].size() < in_rows_[other.first].size();
+                            [&](const auto& a, const auto& b) {
+                              return in_rows_[a.first].size() < in_rows_[b.first].size();
                             })
         ->first;
   }
@@ -180,4 +181,4 @@ std::optional<Fractions> solve_near(std::vector<ExactEquation> equations, const 
   return elimination.back_substituted(guess);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

@@ -4,7 +4,7 @@
 
 #include "convex/exact_program/exact_program.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 /// row·u = right.
 struct ExactEquation {
@@ -17,4 +17,4 @@ struct ExactEquation {
 /// entries, the row with the fewest first (Markowitz 1957).
 std::optional<Fractions> solve_near(std::vector<ExactEquation> equations, const Fractions& guess);
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

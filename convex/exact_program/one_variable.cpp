@@ -6,7 +6,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/symbolic/function_of_call.hpp"
 
-namespace convex::exact_programs {
+namespace convex::inline exact_programs {
 namespace {
 
 /// Symbols take numbers as the simplest fractions that round to them: those that are meant, here.
@@ -65,4 +65,4 @@ std::optional<ExactProgram> of_one_variable(const Call& call, const ExactGram& W
   }
 }
 
-}  // namespace convex::exact_programs
+}  // namespace convex::inline exact_programs

@@ -1,6 +1,6 @@
 #include "convex/exact_program/program_of_call.hpp"
 
-namespace convex::exact_programs {
+namespace convex::inline exact_programs {
 namespace {
 
 Fraction slope(const ExactPiece& p, const Fraction& x) { return p.c2 * x + p.c1; }
@@ -63,4 +63,4 @@ std::optional<ExactProgram> of_pieces(std::size_t n, const std::vector<ExactPiec
   return form;
 }
 
-}  // namespace convex::exact_programs
+}  // namespace convex::inline exact_programs

@@ -3,15 +3,15 @@
 #include "convex/exact_program/exact_arguments.hpp"
 #include "convex/exact_program/program_operations.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 namespace {
 
 using namespace exact_programs;
 
 std::optional<std::vector<ExactProgram>> parts_of(const ExactArguments& a, const ExactGram& W) {
   std::vector<ExactProgram> parts;
-  for (const Call* one : a.calls()) {
-    auto part = exact_program(*one, W);
+  for (const Call* nested : a.calls()) {
+    auto part = exact_program(*nested, W);
     if (!part) return std::nullopt;
     parts.push_back(std::move(*part));
   }
@@ -98,4 +98,4 @@ std::optional<ExactProgram> exact_program(const Call& call, const ExactGram& W) 
   return of_operation(call, a, W);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_programs

@@ -5,7 +5,7 @@
 #include "convex/exact_program/exact_gram.hpp"
 #include "convex/gamma0/call.hpp"
 
-namespace convex {
+namespace convex::inline exact_programs {
 
 /// The function, or the indicator of the set, that a call means in the space with the product of W, as a
 /// program in fractions. None when it is not piecewise linear-quadratic, or its numbers make it no convex
@@ -13,8 +13,6 @@ namespace convex {
 /// `make_function` has taken there. It is made from the call alone, by other code than the functions in
 /// doubles.
 std::optional<ExactProgram> exact_program(const Call& call, const ExactGram& W);
-
-namespace exact_programs {
 
 /// Of the sets and functions without parts; none of other names.
 std::optional<ExactProgram> of_set(const Call& call, std::size_t n);
@@ -36,5 +34,4 @@ std::optional<ExactProgram> of_one_variable(const Call& call, const ExactGram& W
 /// Whether a symmetric matrix, by rows, is positive semidefinite.
 bool is_semidefinite(std::vector<ExactRow> Q);
 
-}  // namespace exact_programs
-}  // namespace convex
+}  // namespace convex::inline exact_programs

@@ -1,6 +1,6 @@
 #include "convex/exact_program/program_operations.hpp"
 
-namespace convex::exact_programs {
+namespace convex::inline exact_programs {
 namespace {
 
 using Maps = std::vector<ExactAffine>;
@@ -201,4 +201,4 @@ ExactProgram conjugate(const ExactProgram& f, const ExactGram& W) {
   return precompose(conjugate(f), W.rows, Fractions(f.n), f.n);
 }
 
-}  // namespace convex::exact_programs
+}  // namespace convex::inline exact_programs

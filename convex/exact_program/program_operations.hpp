@@ -7,7 +7,7 @@
 
 /// The algebra of piecewise linear-quadratic functions in fractions: the operations of
 /// linear_quadratic/operations.hpp, which has the formulas and their sources, without rounding.
-namespace convex::exact_programs {
+namespace convex::inline exact_programs {
 
 ExactProgram sum(std::span<const ExactProgram> terms);
 ExactProgram inf_convolution(const ExactProgram& f, const ExactProgram& g);
@@ -34,4 +34,4 @@ ExactProgram conjugate(const ExactProgram& f);
 /// The conjugate in the product of W: y -> f*(Wy).
 ExactProgram conjugate(const ExactProgram& f, const ExactGram& W);
 
-}  // namespace convex::exact_programs
+}  // namespace convex::inline exact_programs

@@ -2,7 +2,7 @@
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
 
-namespace convex::exact_programs {
+namespace convex::inline exact_programs {
 namespace {
 
 const Fraction unit_entry{1}, minus_entry{-1};
@@ -133,4 +133,4 @@ std::optional<ExactProgram> of_set(const Call& call, std::size_t n) {
   return std::nullopt;
 }
 
-}  // namespace convex::exact_programs
+}  // namespace convex::inline exact_programs

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Closed convex cones. The conjugate of the indicator of each is that of its polar.
 namespace convex::inline named_functions {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 
 namespace convex::inline named_functions {
 

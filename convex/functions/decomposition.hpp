@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 namespace convex::inline named_functions {
 
@@ -34,7 +34,12 @@ struct Decomposition {
   Status status = Status::gave_up;
 };
 
+}  // namespace convex::inline named_functions
+
+/// It takes proxes of operations and fractions, in rooms above this one.
+namespace convex::inline decompositions {
+
 /// z: as many entries as W. Throws InvalidInput when f has another number, or z is not finite.
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance = 1e-9);
 
-}  // namespace convex::inline named_functions
+}  // namespace convex::inline decompositions

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
 #include "convex/double_double.hpp"
-#include "convex/functions/closed_form.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/sets.hpp"
 #include "convex/gamma0/parameter.hpp"

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "convex/composite/atom.hpp"
 #include "convex/double_double.hpp"
 #include "convex/gamma0/facts.hpp"
-#include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/prox_formulas/relative_entropy.hpp"
 #include "convex/prox_formulas/scalar_prox.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Norms and other support functions, of plain coordinates. weight >= 0; 0 gives the function 0.
 namespace convex::inline named_functions {

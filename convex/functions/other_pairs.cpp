@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
-#include "convex/composite/work_limit.hpp"
-#include "convex/functions/closed_form.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 
 namespace convex::inline named_functions {

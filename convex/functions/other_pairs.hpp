@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Other pairs of a point x and its covector v than the two proxes of a decomposition gave: what rounding
 /// spoils in one representation another may keep. Each comes with its own bound of ||x - x*||_W. None where

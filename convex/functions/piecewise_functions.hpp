@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Piecewise linear-quadratic functions of each entry by itself, and linear ones. Their conjugates are of the
 /// same kind. InvalidInput on a parameter that is not finite or outside its range.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"

@@ -3,11 +3,14 @@
 #include <functional>
 #include <vector>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 #include "convex/piecewise/piecewise_quadratic.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 struct LinearQuadratic;
+}
+namespace convex {
+using linear_quadratic::LinearQuadratic;
 }
 
 namespace convex::inline named_functions {

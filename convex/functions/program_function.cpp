@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/double_double.hpp"
-#include "convex/functions/closed_form.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/prox.hpp"
@@ -29,7 +29,7 @@ class ProgramNode : public FunctionNode {
   double value(const Vector& x) const override { return evaluate(x).value; }
   Value evaluate(const Vector& x) const override {
     if (const auto formula = by_formula(x)) return formula->value;
-    const Evaluation found = convex::evaluate(form(), x);
+    const linear_quadratic::Evaluation found = linear_quadratic::evaluate(form(), x);
     if (found.status != Status::solved) {
       constexpr double infinite = std::numeric_limits<double>::infinity();
       return {infinite, infinite};
@@ -39,12 +39,12 @@ class ProgramNode : public FunctionNode {
     return value;
   }
   Prox prox(const Vector& z, const Metric& W, const Look&) const override {
-    return without_rounding_at_zero(convex::prox(form(), z, W), facts(), z, W);
+    return without_rounding_at_zero(linear_quadratic::prox(form(), z, W), facts(), z, W);
   }
   Function conjugate() const override { return Function(std::make_shared<ProgramNode>(parts_, !swapped_)); }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (const auto formula = by_formula(x); formula && formula->v) return formula->v;
-    return convex::evaluate(form(), x).v;
+    return linear_quadratic::evaluate(form(), x).v;
   }
   double recession(const Vector& d) const override { return known_or_infinite(form(), d); }
   double domain_support(const Vector& v) const override {
@@ -85,7 +85,7 @@ class ProgramNode : public FunctionNode {
 
   /// A recession function's value.
   static double known_or_infinite(const LinearQuadratic& f, const Vector& d) {
-    const double found = convex::value(convex::linear_quadratic::recession(f), d);
+    const double found = linear_quadratic::value(linear_quadratic::recession(f), d);
     return std::isnan(found) ? std::numeric_limits<double>::infinity() : found;
   }
   const LinearQuadratic& form() const { return swapped_ ? parts_->conjugate_form : parts_->form; }

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "convex/composite/atom.hpp"
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
-#include "convex/functions/closed_form.hpp"
 #include "convex/functions/inverse_form.hpp"
 #include "convex/functions/semidefinite.hpp"
-#include "convex/gamma0/node.hpp"
 #include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_algebra/cholesky.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 #include "convex/prox_formulas/scalar_prox.hpp"
 
 namespace convex::inline named_functions {

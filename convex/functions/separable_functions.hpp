@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Smooth functions of each entry by itself, summed; +inf outside the domain named, closed hull meant (0 log
 /// 0 = 0). Each makes its conjugate by rule. InvalidInput on a parameter outside its range.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "convex/functions/cones.hpp"
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// The sets of the language; each throws InvalidInput when it would be empty or a number is out of range.
 /// Data are plain coordinates, whatever the metric. A number stands for equal entries, as many as are needed.

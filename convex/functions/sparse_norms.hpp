@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Norms that favour vectors with at most k entries (Argyriou, Foygel and Srebro 2012). k = 1, 2, …; weight,
 /// radius >= 0.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Norms and support functions of matrices stacked by columns. weight, radius, total >= 0; rows >= 1, or 0
 /// for a square matrix.

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 #include "convex/laws/check.hpp"
 #include "convex/laws/trial.hpp"
 

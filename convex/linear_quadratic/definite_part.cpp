@@ -5,7 +5,7 @@
 #include "convex/infinity.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 namespace {
 
 /// H on the auxiliary variables counts as definite when its factor, scaled to a unit diagonal, has no pivot
@@ -140,4 +140,4 @@ Metric curvature_metric(const LinearQuadratic& f, const Metric& W, const Vector&
   return Metric::sparse(A);
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

@@ -3,7 +3,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 /// The variables in which ½||x - z||_W² + f is not strictly convex by itself, and how strongly each should be
 /// held near its last value.
@@ -23,4 +23,4 @@ SoftVariables soft_variables(const LinearQuadratic& f, const Metric& W);
 /// precision.
 Metric curvature_metric(const LinearQuadratic& f, const Metric& W, const Vector& extra);
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

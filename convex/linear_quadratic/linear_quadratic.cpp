@@ -5,7 +5,7 @@
 #include "convex/double_double.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 namespace {
 
 bool is_finite(const double* values, Index count) {
@@ -119,4 +119,4 @@ LinearQuadratic LinearQuadraticBuilder::finish() const {
   return f;
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

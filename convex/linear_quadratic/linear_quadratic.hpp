@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 /// A convex piecewise linear-quadratic function of n variables, with k auxiliary ones (Rockafellar and Wets
 /// 1998, definition 10.20 and theorem 11.14; the form is that of an inf-projection, proposition 11.32):
@@ -66,4 +66,9 @@ class LinearQuadraticBuilder {
   std::vector<double> h_;
 };
 
+}  // namespace convex::linear_quadratic
+
+namespace convex {
+using linear_quadratic::LinearQuadratic;
+using linear_quadratic::LinearQuadraticBuilder;
 }  // namespace convex

@@ -10,7 +10,7 @@
 #include "convex/linear_quadratic/stationarity.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 namespace {
 
 /// The part of the natural curvature that holds soft variables in the first round: each round then leaves
@@ -306,4 +306,4 @@ Vector descent_ray(const LinearQuadratic& f) {
   return ray;
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

@@ -4,7 +4,7 @@
 #include "convex/metric.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 /// Why there is no minimum.
 enum class Defect { none, empty_domain, unbounded_below };
@@ -35,4 +35,4 @@ ProgramPoint minimise(const LinearQuadratic& f, const Metric& W, const Vector& z
 /// the first n entries. Empty when there is none.
 Vector descent_ray(const LinearQuadratic& f);
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

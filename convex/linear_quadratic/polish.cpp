@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "convex/linear_quadratic/stationarity.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 namespace {
 
 using Set = WorkingSet;
@@ -158,4 +158,4 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

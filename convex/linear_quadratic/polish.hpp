@@ -6,7 +6,7 @@
 #include "convex/metric.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 /// The point that a set of active rows defines, to twice the working precision where that converges.
 struct PolishedPoint {
@@ -27,4 +27,4 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
                      const NearestPointProblem& round, const std::vector<Index>& rows, const Vector& xi,
                      const Vector& lambda, double scale);
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

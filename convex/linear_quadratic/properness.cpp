@@ -4,7 +4,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 Defect properness(const LinearQuadratic& f) {
   validate(f, "properness");
@@ -26,4 +26,4 @@ void require_proper(const LinearQuadratic& f, const char* where) {
     throw InvalidInput(std::string(where) + ": -inf wherever it is finite; bound it from below");
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

@@ -9,7 +9,7 @@
 #include "convex/linear_quadratic/minimise.hpp"
 #include "convex/linear_quadratic/stationarity.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 namespace {
 
 /// Whether Gξ >= h, with equality where it is asked for, but for a part of what the rows make of numbers as
@@ -60,4 +60,4 @@ Prox prox(const LinearQuadratic& f, const Vector& z, const Metric& W) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace convex {
+namespace convex::linear_quadratic {
 namespace {
 
 void add_product(const SparseMatrix& A, const DoubleDoubleVector& x, DoubleDoubleVector& sum) {
@@ -101,4 +101,4 @@ Vector softness_of_entries(const Metric& W) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

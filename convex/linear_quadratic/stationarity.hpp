@@ -4,7 +4,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 /// sum += A x in twice the working precision.
 void add_product(const Metric& A, const DoubleDoubleVector& x, DoubleDoubleVector& sum);
@@ -34,4 +34,4 @@ Vector defect_terms(const LinearQuadratic& f, const Vector& xi, const Vector& la
 /// a metric that is nearly singular a rounding of the covector is far.
 Vector softness_of_entries(const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

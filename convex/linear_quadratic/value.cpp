@@ -11,7 +11,7 @@
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/stationarity.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
@@ -205,4 +205,4 @@ double subgradient_defect(const LinearQuadratic& f, const Vector& v, const Vecto
   return found.x.size() == f.n ? (found.x - x).norm() : infinity;
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

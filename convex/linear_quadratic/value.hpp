@@ -5,7 +5,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 /// f(x) with its witnesses.
 struct Evaluation {
@@ -31,4 +31,4 @@ double supremum(const LinearQuadratic& f, const Vector& v);
 /// The distance between x and prox_f(x + v) in the plain metric: 0 exactly when v is a subgradient of f at x.
 double subgradient_defect(const LinearQuadratic& f, const Vector& v, const Vector& x);
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

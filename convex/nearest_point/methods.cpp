@@ -3,12 +3,12 @@
 #include <array>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/common_size.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
-#include "convex/nearest_point/reductions/common_size.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex {
 namespace {

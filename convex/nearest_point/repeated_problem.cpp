@@ -6,12 +6,12 @@
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/active_set/gram_method.hpp"
+#include "convex/nearest_point/common_size.hpp"
 #include "convex/nearest_point/pivoting/critical_region.hpp"
 #include "convex/nearest_point/pivoting/factored_rows.hpp"
-#include "convex/nearest_point/pivoting/gram_method.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
 #include "convex/nearest_point/pivoting/swept_rows.hpp"
-#include "convex/nearest_point/reductions/common_size.hpp"
 
 namespace convex {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "convex/composite/work_limit.hpp"
 #include "convex/double_double.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"

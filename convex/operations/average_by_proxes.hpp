@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 namespace convex::inline operations {
 

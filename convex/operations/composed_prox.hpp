@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// Proxes of sums by the proxes of their parts.
 namespace convex::inline operations {

@@ -3,7 +3,7 @@
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/value.hpp"
 #include "convex/operations/metric_algebra.hpp"

@@ -51,7 +51,7 @@ class Envelope : public Operation {
   std::optional<Function> conjugate_in_product(const Metric& W) const override {
     if (!M_ || is_diagonal_kind(W) || gram(W) != gram(*M_)) return std::nullopt;
     const Function half_square = named("quadratic", {argument("Q", gram(W))}, W.dimension());
-    const Function terms[] = {conjugate_in(f_, W), scale(half_square, gamma_)};
+    const Function terms[] = {f_.conjugate(W), scale(half_square, gamma_)};
     return proper_sum(terms);
   }
   double recession(const Vector& d) const override { return f_.node().recession(d); }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "convex/exact_program/exact_minimum.hpp"
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 namespace convex::inline operations {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
 #include "convex/double_double.hpp"
-#include "convex/functions/closed_form.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 

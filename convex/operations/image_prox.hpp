@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 #include "convex/operations/metric_algebra.hpp"
 
 namespace convex::inline operations {

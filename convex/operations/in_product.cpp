@@ -196,10 +196,11 @@ Function in_product(const Function& h, const Metric& M, const std::optional<Func
 
 Function in_product(const Function& h, const Metric& M) { return in_product(h, M, std::nullopt); }
 
-Function conjugate_in(const Function& f, const Metric& M) {
-  if (const auto* operation = dynamic_cast<const Operation*>(&f.node()))
-    if (auto g = operation->conjugate_in_product(M)) return *std::move(g);
-  return in_product(f.conjugate(), M, f);
-}
-
 }  // namespace convex::inline operations
+
+// Of `Function`, here: without a rule of an operation's own it is an operation on the conjugate.
+convex::Function convex::Function::conjugate(const Metric& M) const {
+  if (const auto* operation = dynamic_cast<const Operation*>(&node()))
+    if (auto g = operation->conjugate_in_product(M)) return *std::move(g);
+  return in_product(conjugate(), M, *this);
+}

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "convex/composite/work_limit.hpp"
-#include "convex/functions/closed_form.hpp"
+#include "convex/composite/closed_form.hpp"
 #include "convex/gamma0/node.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/order_of_doubles.hpp"

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "convex/composite/work_limit.hpp"
 #include "convex/gamma0/node.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/order_of_doubles.hpp"

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 #include "convex/infinity.hpp"
 #include "convex/interval.hpp"
 

@@ -106,7 +106,7 @@ bool has_empty_open_domain(const GraphForm& f) {
     row.equation ? program.equation(row.bound) : program.row(row.bound);
     for (const auto& [column, value] : row.entries) program.entry(column, value);
   }
-  return properness(program.finish()) == Defect::empty_domain;
+  return properness(program.finish()) == linear_quadratic::Defect::empty_domain;
 }
 
 }  // namespace convex::inline operations

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <limits>
 
+#include "convex/composite/closed_form.hpp"
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/saddle_solver.hpp"
-#include "convex/composite/work_limit.hpp"
 #include "convex/double_double.hpp"
-#include "convex/functions/closed_form.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/properness.hpp"
 #include "convex/linear_quadratic/prox.hpp"
@@ -131,7 +131,7 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
   const Vector at = x / size;
   if (const auto form = linear_quadratic(x.size())) {
     WorkLimit::count(WorkLimit::of_a_program_value);
-    const Evaluation found = convex::evaluate(*form, at);
+    const linear_quadratic::Evaluation found = linear_quadratic::evaluate(*form, at);
     if (found.status == Status::solved && std::isinf(found.value) && !facts().finite)
       return {{found.value, 0}, {}};
     if (found.status == Status::solved && !std::isnan(found.value)) {
@@ -164,7 +164,7 @@ std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W, const 
     if (is_settled(*best, z, W)) return best;
   }
   if (const auto form = linear_quadratic(z.size()))
-    take_better(best, convex::prox(*form, z, W));
+    take_better(best, linear_quadratic::prox(*form, z, W));
   else if (auto program = prox_in_slopes(*this, 1, z, W, look))
     take_better(best, *std::move(program));
   else if (const auto plain = graph(z.size()))
@@ -215,13 +215,13 @@ Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
 }
 
 std::optional<Vector> Operation::subgradient(const Vector& x) const {
-  if (const auto form = linear_quadratic(x.size())) return convex::evaluate(*form, x).v;
+  if (const auto form = linear_quadratic(x.size())) return linear_quadratic::evaluate(*form, x).v;
   if (const auto form = graph(x.size())) return convex::evaluate(*form, x).v;
   refuse(*this, "subgradient");
 }
 
 std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W, const Look& look) {
-  if (const auto form = f.node().linear_quadratic(z.size())) return convex::prox(*form, z, W);
+  if (const auto form = f.node().linear_quadratic(z.size())) return linear_quadratic::prox(*form, z, W);
   if (const auto form = f.node().graph(z.size())) return convex::prox(*form, z, W, look);
   return std::nullopt;
 }
@@ -296,7 +296,8 @@ void require_proper(const Function& f, Index n, const char* where) {
     if (apart > 0 || (apart == 0 && std::isinf(f(Vector::Constant(1, domain->low))))) refuse_empty();
   }
   if (const auto form = f.node().linear_quadratic(n)) {
-    if (properness(*form) == Defect::empty_domain && exact_end(f, n) != ProgramEnd::minimum) refuse_empty();
+    if (properness(*form) == linear_quadratic::Defect::empty_domain && exact_end(f, n) != ProgramEnd::minimum)
+      refuse_empty();
   } else if (auto graph = f.node().graph(n)) {
     // Terms that are finite everywhere leave the domain as it is, and would only pull at the gap.
     std::erase_if(graph->terms, [](const GraphTerm& term) { return term.f->facts().finite; });

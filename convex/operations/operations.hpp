@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 /// The operations of docs/functions.md on functions of Gamma_0. Where no formula and no exact reduction gives
 /// value, prox or conjugate, they are found through the parts as programs: `LinearQuadratic` when all parts
@@ -85,9 +85,6 @@ Function computed_conjugate(const Function& f);
 /// `Function::prox`. None for functions without a program.
 std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W,
                                     const Look& look = {});
-
-/// The conjugate of f in the product (x|y) = x·My: f*(My).
-Function conjugate_in(const Function& f, const Metric& M);
 
 /// h(Mx), M the Gram matrix of a metric: with h = f* the conjugate of f in the product (x|y) = x·My.
 Function in_product(const Function& h, const Metric& M);

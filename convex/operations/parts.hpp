@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "convex/composite/graph_form.hpp"
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 
 /// The parts of an operation, all together.

@@ -87,7 +87,7 @@ class ProximalAverage : public Operation {
   std::optional<Function> conjugate_in_product(const Metric& W) const override {
     if (!M_ || facts().piecewise_quadratic || is_diagonal_kind(W) || gram(W) != gram(*M_))
       return std::nullopt;
-    return proximal_average(conjugate_in(f_, W), conjugate_in(g_, W), t_, 1 / gamma_, W);
+    return proximal_average(f_.conjugate(W), g_.conjugate(W), t_, 1 / gamma_, W);
   }
   /// The square keeps p and q together.
   double recession(const Vector& d) const override {

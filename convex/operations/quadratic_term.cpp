@@ -71,7 +71,7 @@ Vector left_of_slope(const Kernel& q, const DoubleDoubleVector& covector, const 
     const DoubleDouble left = product(add({covector.hi[i], covector.lo[i]}, {-q.c[i], 0}), q.gamma);
     sum.hi[i] = left.hi, sum.lo[i] = left.lo;
   }
-  add_product(q.M, DoubleDoubleVector(Vector(-b)), sum);
+  linear_quadratic::add_product(q.M, DoubleDoubleVector(Vector(-b)), sum);
   return sum.value() / q.gamma;
 }
 Vector left_of_slope(const Kernel& q, const Vector& covector, const Vector& b) {
@@ -81,7 +81,7 @@ Vector left_of_slope(const Kernel& q, const Vector& covector, const Vector& b) {
 /// ½||b||_M²/gamma: the products of a nearly singular M cancel.
 Value half_square(const Kernel& q, const Vector& b) {
   DoubleDoubleVector image(b.size());
-  add_product(q.M, DoubleDoubleVector(b), image);
+  linear_quadratic::add_product(q.M, DoubleDoubleVector(b), image);
   RunningSum sum;
   for (Index i = 0; i < b.size(); ++i) {
     sum.add(two_product(image.hi[i], b[i]));
@@ -128,7 +128,7 @@ Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Me
     Vector b = V.solve(metric_difference(W, z, a) - q.c);
     DoubleDoubleVector rest(z.size());  // W(z - a - b)
     add_metric_difference(W, z, a, rest);
-    add_product(W, DoubleDoubleVector(Vector(-b)), rest);
+    linear_quadratic::add_product(W, DoubleDoubleVector(Vector(-b)), rest);
     b += V.solve(left_of_slope(q, rest, b));
     // The kernel q takes its own slope Qb + c, where q*(Qb + c) = ½ b·Qb - q(0).
     const Value square = half_square(q, b);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 #include "convex/operations/metric_algebra.hpp"
 
 /// Quadratic functions among the terms of a sum or an inf-convolution, and what they do to the other terms.

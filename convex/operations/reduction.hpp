@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/closed_form.hpp"
+#include "convex/composite/closed_form.hpp"
 
 namespace convex::inline operations {
 

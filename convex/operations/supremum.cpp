@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "convex/composite/work_limit.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/gamma0/node.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/line_supremum.hpp"
 #include "convex/operations/one_at_a_time.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"

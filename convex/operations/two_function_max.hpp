@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 namespace convex::inline operations {
 

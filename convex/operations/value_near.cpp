@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/composite/work_limit.hpp"
 #include "convex/gamma0/node.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 
 namespace convex::inline operations {

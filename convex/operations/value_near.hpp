@@ -1,7 +1,7 @@
 #pragma once
 
 #include "convex/double_double.hpp"
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 namespace convex::inline operations {
 

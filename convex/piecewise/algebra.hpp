@@ -5,7 +5,7 @@
 /// The closed algebra of piecewise linear-quadratic functions of one variable. Every operation is exact on
 /// the breakpoints but for the rounding of each number, takes time linear in the pieces, and throws
 /// InvalidInput when its result is not convex, closed and proper or overflows.
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 /// f*(y) = sup_x xy - f(x): the rows of the curve swapped, so conjugate(conjugate(f)) is f, byte for byte.
 PiecewiseQuadratic conjugate(PiecewiseQuadratic f);
@@ -38,4 +38,4 @@ PiecewiseQuadratic inf_convolution(const PiecewiseQuadratic& f, const PiecewiseQ
 PiecewiseQuadratic proximal_average(const PiecewiseQuadratic& f, const PiecewiseQuadratic& g, double weight,
                                     double gamma);
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 double common_anchor(const Segment& a, const Segment& b, double from, double to) {
   const auto distance = [&](double x) { return std::max({from - x, x - to, 0.0}); };
@@ -12,4 +12,4 @@ double common_anchor(const Segment& a, const Segment& b, double from, double to)
   return std::abs(a.x) <= std::abs(b.x) ? a.x : b.x;
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

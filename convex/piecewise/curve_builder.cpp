@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
+#include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
 
 /// -0 becomes 0, so that equal functions have equal bytes.
@@ -54,4 +55,8 @@ PiecewiseQuadratic CurveBuilder::finish(const char* where) {
   return PiecewiseQuadratic(std::move(segments_), std::move(corners_), where);
 }
 
-}  // namespace convex
+void require(bool holds, const char* message) {
+  if (!holds) throw InvalidInput(message);
+}
+
+}  // namespace convex::inline piecewise_quadratics

@@ -4,7 +4,7 @@
 
 #include "convex/piecewise/piecewise_quadratic.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 /// Makes a curve from left to right: segment, corner, segment, …, segment. It leaves out what is exactly
 /// redundant, segments between equal corners and corners between segments of one line, and holds corners to
@@ -23,4 +23,7 @@ class CurveBuilder {
   std::vector<Corner> corners_;
 };
 
-}  // namespace convex
+/// Throws InvalidInput with this message unless it holds.
+void require(bool holds, const char* message);
+
+}  // namespace convex::inline piecewise_quadratics

@@ -7,14 +7,7 @@
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/curve_builder.hpp"
 
-namespace convex::piecewise {
-namespace {
-
-void require(bool holds, const char* message) {
-  if (!holds) throw InvalidInput(message);
-}
-
-}  // namespace
+namespace convex::inline piecewise_quadratics::piecewise {
 
 PiecewiseQuadratic constant(double c) { return quadratic(0, 0, c); }
 
@@ -84,4 +77,4 @@ PiecewiseQuadratic elastic_net(double l1, double l2) {
   return add_square(absolute(l1), l2);
 }
 
-}  // namespace convex::piecewise
+}  // namespace convex::inline piecewise_quadratics::piecewise

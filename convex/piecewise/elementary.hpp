@@ -4,7 +4,7 @@
 
 /// The functions of one variable that others are made of. Each throws InvalidInput on a parameter outside its
 /// range.
-namespace convex::piecewise {
+namespace convex::inline piecewise_quadratics::piecewise {
 
 /// c.
 PiecewiseQuadratic constant(double c);
@@ -29,4 +29,4 @@ PiecewiseQuadratic squared_hinge(double weight = 1);
 /// l1 |x| + l2/2 x², l1, l2 >= 0.
 PiecewiseQuadratic elastic_net(double l1, double l2);
 
-}  // namespace convex::piecewise
+}  // namespace convex::inline piecewise_quadratics::piecewise

@@ -6,8 +6,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
-namespace {}  // namespace
+namespace convex::inline piecewise_quadratics {
 
 PieceCursor::PieceCursor(const PiecewiseQuadratic& f) : f_(&f) {
   if (piece().run == 0) next();
@@ -50,4 +49,4 @@ std::optional<PairOfCursors> PairOfCursors::meet(const PiecewiseQuadratic& f, co
   return both;
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

@@ -2,7 +2,7 @@
 
 #include "convex/piecewise/piecewise_quadratic.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 /// Walks over the pieces of f that have an interior, from left to right. The domain must be more than a
 /// point.
@@ -40,4 +40,4 @@ struct PairOfCursors {
   double end() const { return f.end() < g.end() ? f.end() : g.end(); }
 };
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

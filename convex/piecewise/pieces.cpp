@@ -10,7 +10,7 @@
 #include "convex/piecewise/elementary.hpp"
 #include "convex/piecewise/piece_cursor.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
 
 template <class... Parts>
@@ -170,4 +170,4 @@ Pieces pieces(const PiecewiseQuadratic& f) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

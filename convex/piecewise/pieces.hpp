@@ -3,7 +3,7 @@
 #include "convex/piecewise/piecewise_quadratic.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 /// A piecewise linear-quadratic function as `plq(breaks, coefficients)` of docs/functions.md writes it.
 struct Pieces {
@@ -27,4 +27,4 @@ PiecewiseQuadratic piecewise_quadratic(const Vector& breaks, const Matrix& coeff
 /// is told more accurately by its curve. Throws InvalidInput when a coefficient overflows.
 Pieces pieces(const PiecewiseQuadratic& f);
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

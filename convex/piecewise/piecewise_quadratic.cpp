@@ -8,7 +8,7 @@
 #include "convex/invariant.hpp"
 #include "convex/piecewise/algebra.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
 
 /// The first corner with corner.x >= x; segment k then holds x, and its slope at x is f'_-(x).
@@ -102,4 +102,4 @@ std::string text(const Interval& interval) {
   return out.str();
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

@@ -7,7 +7,7 @@
 #include "convex/interval.hpp"
 #include "convex/piecewise/segment.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 /// A point of the graph of a subdifferential where one segment ends and the next begins.
 struct Corner {
@@ -59,4 +59,4 @@ double infimum(const PiecewiseQuadratic&);
 /// "[low, high]", for messages.
 std::string text(const Interval&);
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

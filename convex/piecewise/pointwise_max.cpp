@@ -7,7 +7,7 @@
 #include "convex/piecewise/elementary.hpp"
 #include "convex/piecewise/piece_cursor.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
 
 /// a b - c d to a rounding of the result or two (Kahan; Jeannerod, Louvet and Muller 2013).
@@ -120,4 +120,4 @@ PiecewiseQuadratic pointwise_max(const PiecewiseQuadratic& f, const PiecewiseQua
   return open.curve.finish(where);
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

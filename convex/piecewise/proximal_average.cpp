@@ -6,7 +6,7 @@
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/curve_builder.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
 
 /// A point of the graph with the value of the function there.
@@ -119,4 +119,4 @@ PiecewiseQuadratic proximal_average(const PiecewiseQuadratic& f, const Piecewise
   return curve.finish("proximal_average");
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

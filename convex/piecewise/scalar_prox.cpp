@@ -7,7 +7,7 @@
 #include "convex/infinity.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
 
 /// Positive to the right of the corner, that is, where the prox of z lies beyond it. Monotone in z and along
@@ -167,4 +167,4 @@ void prox(const PiecewiseQuadratic& f, Eigen::Ref<const Vector> z, double d, Eig
       f, z, [d](Index) { return [d](Index) { return d; }; }, x);
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

@@ -3,7 +3,7 @@
 #include "convex/piecewise/piecewise_quadratic.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 /// A point x and a slope y of f at x: y in the subdifferential, each by the formula of its piece.
 struct ProxPoint {
@@ -25,4 +25,4 @@ void prox(const PiecewiseQuadratic& f, Eigen::Ref<const Vector> z, Eigen::Ref<co
 /// x_i = prox(f, z_i, d).
 void prox(const PiecewiseQuadratic& f, Eigen::Ref<const Vector> z, double d, Eigen::Ref<Vector> x);
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 
 /// A line in the plane of points x and slopes y, and the values on it of the function f whose derivative it
 /// is and of its conjugate g: rise (x - x_0) = run (y - y_0) through an anchor (x_0, y_0) with f(x_0) = f and
@@ -76,4 +76,4 @@ inline void add_slopes(const Segment& a, const Segment& b, double& run, double& 
   }
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

@@ -5,7 +5,7 @@
 #include "convex/piecewise/elementary.hpp"
 #include "convex/piecewise/piece_cursor.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
 
 Segment added(const Segment& a, const Segment& b, double from, double to) {
@@ -58,4 +58,4 @@ PiecewiseQuadratic inf_convolution(const PiecewiseQuadratic& f, const PiecewiseQ
   return conjugate(sum(conjugate(f), conjugate(g), "inf_convolution"));
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

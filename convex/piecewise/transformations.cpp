@@ -6,12 +6,8 @@
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/curve_builder.hpp"
 
-namespace convex {
+namespace convex::inline piecewise_quadratics {
 namespace {
-
-void require(bool holds, const char* message) {
-  if (!holds) throw InvalidInput(message);
-}
 
 /// The curve with a monotone map applied to its corners and one to its segments.
 template <class MapCorner, class MapSegment>
@@ -121,4 +117,4 @@ PiecewiseQuadratic add_constant(const PiecewiseQuadratic& f, double c) {
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline piecewise_quadratics

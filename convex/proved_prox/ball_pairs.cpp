@@ -1,7 +1,7 @@
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex::pairs {
+namespace convex::inline proved_prox::pairs {
 namespace {
 
 bool is_inside(const Fraction& radius, const Fractions& centre, const Fractions& x) {
@@ -85,4 +85,4 @@ MaybePair of_ball(const Fraction& radius, const Fractions& centre, const Fractio
   return best_of(std::move(candidates), x, v);
 }
 
-}  // namespace convex::pairs
+}  // namespace convex::inline proved_prox::pairs

@@ -1,7 +1,7 @@
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex::pairs {
+namespace convex::inline proved_prox::pairs {
 namespace {
 
 const Fraction cone_zero{0}, cone_one{1};
@@ -195,4 +195,4 @@ MaybePair of_power_cone(const Fraction& alpha, const Fractions& x, const Fractio
   return best_of(std::move(candidates), x, v);
 }
 
-}  // namespace convex::pairs
+}  // namespace convex::inline proved_prox::pairs

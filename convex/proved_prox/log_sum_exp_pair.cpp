@@ -3,7 +3,7 @@
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex::pairs {
+namespace convex::inline proved_prox::pairs {
 namespace {
 
 /// The values at x and at v >= 0 of sum 1, both looked at.
@@ -63,4 +63,4 @@ MaybePair of_log_sum_exp(const Fractions& x, const Fractions& v) {
   return best_of(std::move(candidates), x, v);
 }
 
-}  // namespace convex::pairs
+}  // namespace convex::inline proved_prox::pairs

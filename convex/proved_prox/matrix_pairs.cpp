@@ -5,7 +5,7 @@
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex::pairs {
+namespace convex::inline proved_prox::pairs {
 namespace {
 
 /// Square matrices of fractions, by rows.
@@ -126,4 +126,4 @@ MaybePair of_neg_log_det(const Fractions& x, const Fractions& v) {
   return ProofPair{stacked(X), v, *f_x, *f_v, false};
 }
 
-}  // namespace convex::pairs
+}  // namespace convex::inline proved_prox::pairs

@@ -4,7 +4,7 @@
 
 /// Pairs of the functions that curve: witnesses are made in any way, their values looked at in fractions or
 /// balls. Each returns none where the looking does not succeed.
-namespace convex::pairs {
+namespace convex::inline proved_prox::pairs {
 
 using MaybePair = std::optional<ProofPair>;
 
@@ -39,4 +39,4 @@ Fraction square_of(const Fractions& x);
 Fractions multiple_of(const Fraction& factor, Fractions x);
 Fractions sum_of(const Fractions& x, const Fractions& y);
 
-}  // namespace convex::pairs
+}  // namespace convex::inline proved_prox::pairs

@@ -4,7 +4,7 @@
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex::pairs {
+namespace convex::inline proved_prox::pairs {
 namespace {
 
 /// The prox of P at s with a spring lambda ½|x - c|²: P's point x and covector s - x - lambda (x - c).
@@ -74,4 +74,4 @@ MaybePair of_program_and_ball(const ExactProgram& P, const Fraction& radius, con
                    only(dual.value + dot(centre, of_ball)) + times(radius * fraction(high), *length), false};
 }
 
-}  // namespace convex::pairs
+}  // namespace convex::inline proved_prox::pairs

@@ -6,6 +6,7 @@
 #include "convex/exact/rounding_bounds.hpp"
 #include "convex/exact_program/linear_equations.hpp"
 #include "convex/nearest_point/solution.hpp"
+#include "convex/proved_prox/doubles/metric_bounds.hpp"
 
 namespace convex::inline proved_prox {
 namespace {
@@ -32,46 +33,7 @@ bool is_definite(std::vector<ExactRow> W) {
   return true;
 }
 
-/// Tried as parts of an estimate of the least eigenvalue.
-constexpr double parts_of_estimate[] = {0.9, 0.5, 0.1};
-
-/// Cholesky's method in place, the lower half; false at a pivot that is not positive.
-bool has_factor(Matrix L) {
-  for (Index j = 0; j < L.cols(); ++j) {
-    const double pivot = L(j, j);
-    if (!(pivot > 0)) return false;
-    const Index below_j = L.rows() - j - 1;
-    L.col(j).tail(below_j) /= pivot;
-    for (Index k = j + 1; k < L.cols(); ++k)
-      L.col(k).tail(L.rows() - k) -= (pivot * L(k, j)) * L.col(j).tail(L.rows() - k);
-  }
-  return true;
-}
-
 }  // namespace
-
-double least_eigenvalue_below(const Matrix& W) {
-  const Index n = W.rows();
-  if (n == 0 || !is_ordinary(W)) return 0;
-  const double trace = above(W.diagonal().cwiseAbs().sum());
-  // Each entry of the exact matrix may be off its double by half a unit, and the shifted diagonal by another.
-  const double lost = above(8 * gamma(n + 2) * trace);
-  const Metric metric = Metric::dense(W);
-  // Inverse iteration: an estimate, nothing more.
-  Vector q = Vector::LinSpaced(n, 1, 2).normalized();
-  double estimate = 0;
-  constexpr int iterations = 6;
-  for (int k = 0; k < iterations; ++k) {
-    q = metric.solve(q);
-    estimate = 1 / q.norm();
-    q *= estimate;
-  }
-  for (const double part : parts_of_estimate) {
-    const double shift = part * estimate;
-    if (shift > 2 * lost && has_factor(W - shift * Matrix::Identity(n, n))) return below(shift - lost);
-  }
-  return 0;
-}
 
 Vector nearest(const Fractions& x) {
   Vector made(static_cast<Index>(x.size()));
@@ -96,7 +58,7 @@ ProvedMetric::ProvedMetric(ExactGram W)
   if (is_exact_)
     positive_ = is_definite(W_.rows);
   else
-    least_ = least_eigenvalue_below(doubles_.dense_gram());
+    least_ = near_graphs::least_eigenvalue_below(doubles_.dense_gram());
 }
 
 bool is_proved_in_integers(const ExactGram& W) {

@@ -33,11 +33,6 @@ class ProvedMetric {
 /// That W is positive definite, decided in integers whatever its size.
 bool is_proved_in_integers(const ExactGram& W);
 
-/// A number below the least eigenvalue of W, 0 where none above 0 is proved: Cholesky's method in doubles on
-/// W - shift I without a negative pivot proves λ_min(W) > shift - γ tr(W) (Rump 2006; Higham 2002, theorem
-/// 10.3).
-double least_eigenvalue_below(const Matrix& W);
-
 /// x rounded, and the fractions of doubles.
 Vector nearest(const Fractions& x);
 Fractions fractions(const Vector& x);

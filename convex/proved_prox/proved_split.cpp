@@ -8,8 +8,8 @@
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/solution.hpp"
-#include "convex/proved_prox/doubles/proof_in_doubles.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
+#include "convex/proved_prox/proof_in_doubles.hpp"
 
 namespace convex::inline proved_prox {
 

@@ -8,7 +8,7 @@
 #include "convex/proved_prox/proved_metric.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 /// The root of a positive fraction, rounded, also of one that no double is near.
@@ -157,4 +157,4 @@ std::optional<Subdifferential> of_curved_norm_or_set(const Call& f, const Fracti
   return std::nullopt;
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

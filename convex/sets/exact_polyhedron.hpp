@@ -2,7 +2,7 @@
 
 #include "convex/cones/polyhedral_cone.hpp"
 #include "convex/exact_program/exact_program.hpp"
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 namespace convex::inline sets {
 

@@ -11,7 +11,7 @@
 #include "convex/proved_prox/pair_of_call.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 using symbolic::Surd;
@@ -175,4 +175,4 @@ std::optional<int> order(const KnownValue& a, const KnownValue& b) {
   return std::nullopt;
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

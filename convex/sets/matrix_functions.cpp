@@ -9,7 +9,7 @@
 #include "convex/sets/multiple_eigenvalue.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 std::size_t side_of(std::size_t entries) {
@@ -279,4 +279,4 @@ std::optional<Subdifferential> of_matrix_function(const Call& f, const Fractions
   return std::nullopt;
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

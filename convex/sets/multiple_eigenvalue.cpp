@@ -2,7 +2,7 @@
 
 #include "convex/exact/fraction_arithmetic.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 /// Coefficients, the constant first; the last one is not 0.
@@ -73,4 +73,4 @@ bool is_multiple_eigenvalue(const IntegerRows& X, Index many, const Fraction& lo
   return p.size() > 1 && sign_at(p, low) * sign_at(p, high) < 0;
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

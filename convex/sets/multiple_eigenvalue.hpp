@@ -2,7 +2,7 @@
 
 #include "convex/exact/fraction.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 
 /// Whether the symmetric matrix of integers has an eigenvalue of exactly this multiplicity in [low, high],
 /// where its eigenvalues counted with their multiplicities are so many, decided in fractions: the greatest
@@ -10,4 +10,4 @@ namespace convex::subgradients {
 /// and Le Verrier), changes its sign there.
 bool is_multiple_eigenvalue(const IntegerRows& X, Index many, const Fraction& low, const Fraction& high);
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/composite/atom.hpp"
 #include "convex/cones/cone_operations.hpp"
 #include "convex/exact_program/exact_arguments.hpp"
 #include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
-#include "convex/gamma0/node.hpp"
 #include "convex/proved_prox/entry_formulas.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 #include "convex/sets/subdifferential_rules.hpp"

@@ -11,7 +11,7 @@
 #include "convex/sets/known_value.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 [[noreturn]] void refuse(const Call& f, const std::string& why) {
@@ -272,4 +272,4 @@ std::optional<Subdifferential> of_smooth_or_homogeneous(const Call& f, const Exa
   return single(fractions(*v), false);
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

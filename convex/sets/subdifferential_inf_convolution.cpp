@@ -9,7 +9,7 @@
 #include "convex/proved_prox/proved_metric.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 /// Slopes of the two parts that are as near as this, as a part of their size, are one. What is told is
@@ -264,4 +264,4 @@ Subdifferential of_inf_convolution(const Call& f, const ExactGram& W, const Frac
   return Sharing(f, W, x).subdifferential();
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

@@ -3,7 +3,7 @@
 #include "convex/sets/subgradients.hpp"
 
 /// The rules behind `subdifferential`; each returns none for names that it has no rule for.
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 
 /// From the parts of an operation. Throws InvalidInput where a condition of the calculus is not met, or a
 /// part has no rule.
@@ -26,4 +26,4 @@ std::optional<Subdifferential> of_three_entry_cone(const Call& f, const Fraction
 std::optional<Subdifferential> of_smooth_or_homogeneous(const Call& f, const ExactGram& W,
                                                         const Fractions& x);
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

@@ -7,7 +7,7 @@
 #include "convex/gamma0/node.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 /// sup of d·v over the set, as an expression.
@@ -156,4 +156,4 @@ Subdifferential intersection(const Subdifferential& a, const Subdifferential& b)
       a.n, is_bounded(a) || is_bounded(b));
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

@@ -4,7 +4,7 @@
 
 /// Sets of subgradients and what is done with them: each is a polyhedron in fractions, or known by its
 /// support function, as an expression of the language in the plain product.
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 
 Subdifferential of_polyhedron(ExactPolyhedron P, bool is_exact);
 /// {v}, nothing, and {t d : t >= 0}.
@@ -26,4 +26,4 @@ Subdifferential product(const std::vector<Subdifferential>&);
 Subdifferential hull(const std::vector<Subdifferential>&);
 Subdifferential intersection(const Subdifferential&, const Subdifferential&);
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

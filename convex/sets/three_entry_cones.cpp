@@ -4,7 +4,7 @@
 
 /// Normal cones of the exponential and the power cones by their faces. At a point other than 0 they are
 /// polyhedra, in fractions: {0} inside, a ray on the curved part, the normals of a plane or an edge.
-namespace convex::subgradients {
+namespace convex::inline sets::subgradients {
 namespace {
 
 Fractions triple(Fraction a, Fraction b, Fraction c) { return {std::move(a), std::move(b), std::move(c)}; }
@@ -122,4 +122,4 @@ std::optional<Subdifferential> of_three_entry_cone(const Call& f, const Fraction
   return of_power_cone(f, x, a, one_part / a, one_part / (one_part - a));
 }
 
-}  // namespace convex::subgradients
+}  // namespace convex::inline sets::subgradients

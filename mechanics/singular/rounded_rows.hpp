@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "mechanics/expression/time_series.hpp"
-#include "mechanics/singular/row_space.hpp"
+#include "mechanics/row_space.hpp"
 
 namespace mechanics::inline singular_states {
 

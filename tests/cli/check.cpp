@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/json_writer.hpp"
 #include "cli/report/checks_report.hpp"
-#include "cli/report/json_writer.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/this_build.hpp"
 

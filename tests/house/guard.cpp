@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -12,6 +11,7 @@
 #include "tests/house/source_files.hpp"
 
 namespace fs = std::filesystem;
+using tests::included;
 using tests::SourceFile;
 
 namespace {
@@ -26,54 +26,6 @@ bool begins_with_any(const std::string& text, const std::vector<std::string>& pr
 
 }  // namespace
 
-TEST_CASE("data flow from cli to mechanics to convex and never back") {
-  for (const SourceFile& file : tests::source_files()) {
-    std::vector<std::string> forbidden;
-    if (file.room == "convex") forbidden = {"mechanics/", "cli/", "tests/"};
-    if (file.room == "mechanics") forbidden = {"cli/", "tests/"};
-    if (file.room == "cli") forbidden = {"tests/"};
-    for (const std::string& line : file.lines) {
-      CAPTURE(file.path);
-      CAPTURE(line);
-      CHECK_FALSE(begins_with_any(tests::included(line), forbidden));
-    }
-  }
-}
-
-TEST_CASE("what the nearest point stands on does not see it") {
-  for (const SourceFile& file : tests::source_files()) {
-    const std::vector<std::string> below{"convex/dense/", "convex/linear_algebra/", "convex/exact/",
-                                         "convex/obstacle_problem/"};
-    if (!begins_with_any(file.path, below)) continue;
-    for (const std::string& line : file.lines) {
-      CAPTURE(file.path);
-      CAPTURE(line);
-      CHECK_FALSE(begins_with_any(tests::included(line), {"convex/nearest_point/"}));
-    }
-  }
-}
-
-TEST_CASE("each room of solvers has a namespace of its own") {
-  std::map<std::string, std::set<std::string>> spaces;  // of a room
-  std::map<std::string, std::set<std::string>> rooms;   // of a namespace
-  static const std::regex opened(R"(^namespace (convex::inline \w+|convex)(::\w+)? \{$)");
-  for (const SourceFile& file : tests::source_files()) {
-    const std::string room = fs::path(file.path).parent_path().string();
-    if (!room.starts_with("convex/nearest_point/") && room != "convex/obstacle_problem") continue;
-    for (const std::string& line : file.lines)
-      if (std::smatch match; std::regex_match(line, match, opened)) {
-        spaces[room].insert(match[1]);
-        rooms[match[1]].insert(room);
-      }
-  }
-  CHECK(spaces.size() >= 12);
-  for (const auto& [room, names] : spaces) {
-    CAPTURE(room);
-    CHECK(names.size() == 1);
-    for (const std::string& name : names) CHECK(rooms[name].size() == 1);
-  }
-}
-
 TEST_CASE("heavy libraries stay behind the firewall: in no header of a room but the one for ceres::Jet") {
   const std::vector<std::string> heavy{"CGAL/",   "ceres/", "gmp",       "flint",     "arb",
                                        "toml++/", "CLI/",   "nlohmann/", "fmt/format"};
@@ -82,7 +34,7 @@ TEST_CASE("heavy libraries stay behind the firewall: in no header of a room but 
     for (const std::string& line : file.lines) {
       CAPTURE(file.path);
       CAPTURE(line);
-      CHECK_FALSE(begins_with_any(tests::included(line), heavy));
+      CHECK_FALSE(begins_with_any(included(line), heavy));
     }
   }
 }
@@ -95,7 +47,7 @@ TEST_CASE("a decomposition of Eigen's is compiled in the room of linear algebra 
     const bool is_home = file.path.rfind("convex/linear_algebra/", 0) == 0 && !file.is_header();
     if (file.room == "tests" || is_home) continue;
     for (const std::string& line : file.lines) {
-      const std::string header = tests::included(line);
+      const std::string header = included(line);
       CAPTURE(file.path);
       CAPTURE(line);
       CHECK((header == "Eigen/SparseCore" || !begins_with_any(header, slow)));
@@ -106,7 +58,7 @@ TEST_CASE("a decomposition of Eigen's is compiled in the room of linear algebra 
 TEST_CASE("nothing but tests includes the header for ceres::Jet") {
   for (const SourceFile& file : tests::source_files())
     for (const std::string& line : file.lines)
-      if (file.room != "tests") CHECK(tests::included(line) != "mechanics/jet_system.hpp");
+      if (file.room != "tests") CHECK(included(line) != "mechanics/jet_system.hpp");
 }
 
 TEST_CASE("no file is longer than 350 lines, and none has a name that says nothing") {

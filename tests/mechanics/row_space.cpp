@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "mechanics/singular/row_space.hpp"
+#include "mechanics/row_space.hpp"
 
 using namespace mechanics;
 

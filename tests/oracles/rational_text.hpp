@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/nearest_point/proof/exact_multipliers.hpp"
+#include "convex/nearest_point/multipliers/exact_multipliers.hpp"
 #include "tests/oracles/rational_kkt.hpp"
 
 namespace oracles {

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace convex {
+namespace convex::inline ball_module {
 
 /// What is computed with balls.
 enum class BallFunction : int {
@@ -44,4 +44,4 @@ struct BallOperations {
   double (*radius)(const void* ball);
 };
 
-}  // namespace convex
+}  // namespace convex::inline ball_module

@@ -6,10 +6,10 @@
 #include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/degenerate_rows.hpp"
-#include "convex/nearest_point/active_set/dependent_row.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
-#include "convex/nearest_point/pivoting/gram_method.hpp"
+#include "convex/nearest_point/active_set/gram_method.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/working_set/dependent_row.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline dual_active_set {
 namespace {

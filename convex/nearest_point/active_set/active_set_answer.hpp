@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/refinement.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace convex::inline dual_active_set {

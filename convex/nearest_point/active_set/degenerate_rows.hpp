@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/refinement.hpp"
 
 namespace convex::inline dual_active_set {
 

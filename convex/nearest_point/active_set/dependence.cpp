@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/reductions/islands.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline dual_active_set {
 namespace {

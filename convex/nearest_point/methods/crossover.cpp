@@ -6,12 +6,12 @@
 #include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/sparse/sparse_active_set.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline algorithms {

@@ -1,7 +1,7 @@
 #include "convex/nearest_point/methods/every_method.hpp"
 
-#include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
+#include "convex/nearest_point/optimality/refinement.hpp"
 
 namespace convex::inline algorithms {
 namespace {

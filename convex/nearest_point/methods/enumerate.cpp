@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
+#include "convex/nearest_point/working_set/dependent_row.hpp"
 
 namespace convex::inline algorithms {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/reductions/scaled_problem.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline algorithms {
 

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "convex/infinity.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline multiplier_sets {
 namespace {

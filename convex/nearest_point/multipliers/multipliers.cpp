@@ -8,7 +8,6 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/multipliers/coupled_pushes.hpp"
 #include "convex/nearest_point/multipliers/least_norm.hpp"
 #include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
@@ -16,6 +15,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/reductions/left_out.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline multiplier_sets {

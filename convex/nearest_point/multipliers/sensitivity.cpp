@@ -6,8 +6,8 @@
 #include "convex/infinity.hpp"
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline multiplier_sets {
 namespace {

@@ -1,5 +1,5 @@
 #include "convex/nearest_point/optimality/farkas.hpp"
-#include "convex/nearest_point/active_set/dependent_row.hpp"
+#include "convex/nearest_point/working_set/dependent_row.hpp"
 
 #include <algorithm>
 #include <cmath>

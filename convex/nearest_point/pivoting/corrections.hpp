@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/refinement.hpp"
 #include "convex/nearest_point/pivoting/gram_point.hpp"
 
 namespace convex::inline pivoting {

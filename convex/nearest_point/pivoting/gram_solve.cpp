@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "convex/dense/dense_kernels.hpp"
-#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/refinement.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
 

@@ -4,12 +4,12 @@
 
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
-#include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
+#include "convex/nearest_point/working_set/dependent_row.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline proof {

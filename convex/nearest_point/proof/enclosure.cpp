@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "convex/linear_algebra/pivoted_qr.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/held_point.hpp"
 #include "convex/nearest_point/proof/open_rows.hpp"
 #include "convex/nearest_point/proof/sparse_enclosure.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline proof {
 namespace {

@@ -1,7 +1,7 @@
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline reductions {
 

@@ -2,8 +2,8 @@
 
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_algebra/sparse_cholesky.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/reductions/balanced_problem.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 
 namespace convex::inline sparse {
 

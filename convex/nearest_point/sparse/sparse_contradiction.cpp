@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline sparse {

@@ -7,7 +7,7 @@
 #include "convex/interval_arithmetic.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::near_graphs {
 namespace {
 
 /// What a text says, near the double that was read from it.
@@ -81,4 +81,4 @@ const Call& IntervalArguments::call(std::string_view parameter) const {
   return *std::get<std::shared_ptr<const Call>>(find(parameter)->value);
 }
 
-}  // namespace convex
+}  // namespace convex::near_graphs

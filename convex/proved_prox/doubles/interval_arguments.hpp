@@ -6,7 +6,7 @@
 #include "convex/gamma0/call.hpp"
 #include "convex/interval.hpp"
 
-namespace convex {
+namespace convex::near_graphs {
 
 /// Intervals that hold the arguments of a call as they are written: a double that is what was read is a
 /// point, another one has its rounding about it. Infinite numbers stay.
@@ -29,4 +29,4 @@ class IntervalArguments {
   Index n_;
 };
 
-}  // namespace convex
+}  // namespace convex::near_graphs

@@ -4,15 +4,53 @@
 
 #include "convex/exact/rounding_bounds.hpp"
 #include "convex/interval_arithmetic.hpp"
-#include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex {
+namespace convex::near_graphs {
 namespace {
 
 /// The largest sum of sizes in a row is at least the largest eigenvalue.
 double largest_row(const Matrix& sizes) { return above(sizes.rowwise().sum().maxCoeff()); }
 
+/// Tried as parts of an estimate of the least eigenvalue.
+constexpr double parts_of_estimate[] = {0.9, 0.5, 0.1};
+
+/// Cholesky's method in place, the lower half; false at a pivot that is not positive.
+bool has_factor(Matrix L) {
+  for (Index j = 0; j < L.cols(); ++j) {
+    const double pivot = L(j, j);
+    if (!(pivot > 0)) return false;
+    const Index below_j = L.rows() - j - 1;
+    L.col(j).tail(below_j) /= pivot;
+    for (Index k = j + 1; k < L.cols(); ++k)
+      L.col(k).tail(L.rows() - k) -= (pivot * L(k, j)) * L.col(j).tail(L.rows() - k);
+  }
+  return true;
+}
+
 }  // namespace
+
+double least_eigenvalue_below(const Matrix& W) {
+  const Index n = W.rows();
+  if (n == 0 || !is_ordinary(W)) return 0;
+  const double trace = above(W.diagonal().cwiseAbs().sum());
+  // Each entry of the exact matrix may be off its double by half a unit, and the shifted diagonal by another.
+  const double lost = above(8 * gamma(n + 2) * trace);
+  const Metric metric = Metric::dense(W);
+  // Inverse iteration: an estimate, nothing more.
+  Vector q = Vector::LinSpaced(n, 1, 2).normalized();
+  double estimate = 0;
+  constexpr int iterations = 6;
+  for (int k = 0; k < iterations; ++k) {
+    q = metric.solve(q);
+    estimate = 1 / q.norm();
+    q *= estimate;
+  }
+  for (const double part : parts_of_estimate) {
+    const double shift = part * estimate;
+    if (shift > 2 * lost && has_factor(W - shift * Matrix::Identity(n, n))) return below(shift - lost);
+  }
+  return 0;
+}
 
 bool MetricBounds::is_diagonal() const {
   return W_.kind() == MetricKind::identity || W_.kind() == MetricKind::diagonal;
@@ -79,4 +117,4 @@ void MetricBounds::multiply(Vector& x, Vector& radius) const {
   x = gram_ * x;
 }
 
-}  // namespace convex
+}  // namespace convex::near_graphs

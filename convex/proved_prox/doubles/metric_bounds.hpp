@@ -2,7 +2,12 @@
 
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::near_graphs {
+
+/// A number below the least eigenvalue of W, 0 where none above 0 is proved: Cholesky's method in doubles on
+/// W - shift I without a negative pivot proves λ_min(W) > shift - γ tr(W) (Rump 2006; Higham 2002, theorem
+/// 10.3).
+double least_eigenvalue_below(const Matrix& W);
 
 /// Norms in a metric, bounded from above in doubles. W is meant to a relative error in every entry: 0, or
 /// half a unit of the last place.
@@ -32,4 +37,4 @@ class MetricBounds {
   double error_, least_, most_;
 };
 
-}  // namespace convex
+}  // namespace convex::near_graphs

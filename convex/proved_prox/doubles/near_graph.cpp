@@ -6,9 +6,7 @@
 #include "convex/exact/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
 
-namespace convex {
-
-using near_graphs::MaybeNear;
+namespace convex::near_graphs {
 
 void NearGraph::set_x(Index i, const Interval& a) {
   x[i] = middle(a);
@@ -22,8 +20,6 @@ void NearGraph::set_v(Index i, const Interval& a) {
 
 Interval NearGraph::x_at(Index i) const { return outwards(x[i] - x_radius[i], x[i] + x_radius[i]); }
 Interval NearGraph::v_at(Index i) const { return outwards(v[i] - v_radius[i], v[i] + v_radius[i]); }
-
-namespace near_graphs {
 
 namespace {
 
@@ -62,10 +58,8 @@ Interval square_sum(const Vector& x) {
   return {std::max(0.0, made.low), made.high};
 }
 
-}  // namespace near_graphs
-
 Interval inner_product(const NearGraph& pair) {
-  const Interval middle = near_graphs::product_sum(pair.x, pair.v);
+  const Interval middle = product_sum(pair.x, pair.v);
   const Vector x = pair.x.cwiseAbs() + pair.x_radius, v = pair.v.cwiseAbs() + pair.v_radius;
   const double spread = x.dot(pair.v_radius) + pair.x_radius.dot(v) + x.norm() * pair.v_ball +
                         pair.x_ball * (v.norm() + pair.v_ball);
@@ -93,8 +87,8 @@ MaybeNear of_groups(const IntervalArguments& a, bool is_ball, const Vector& x, c
   for (std::size_t k = 0; first < x.size(); ++k) {
     const auto n = static_cast<Index>(sizes[given ? k : 0].low);
     const Vector point = x.segment(first, n), covector = v.segment(first, n);
-    const NearGraph part = is_ball ? turned_round(near_graphs::of_norm2(weight, covector, point))
-                                   : near_graphs::of_norm2(weight, point, covector);
+    const NearGraph part =
+        is_ball ? turned_round(of_norm2(weight, covector, point)) : of_norm2(weight, point, covector);
     whole.x.segment(first, n) = part.x;
     whole.x_radius.segment(first, n) = part.x_radius;
     whole.v.segment(first, n) = part.v;
@@ -121,7 +115,6 @@ MaybeNear turned(MaybeNear pair) {
 }  // namespace
 
 std::optional<NearGraph> near_graph(const Call& f, const Metric& W, const Vector& x, const Vector& v) {
-  using namespace near_graphs;
   const std::string& name = f.name;
   const IntervalArguments a(f, x.size());
   if (name == "indicator") return near_graph(a.call("set"), W, x, v);
@@ -160,4 +153,4 @@ std::optional<NearGraph> near_graph(const Call& f, const Metric& W, const Vector
   return of_operation(f, W, x, v);
 }
 
-}  // namespace convex
+}  // namespace convex::near_graphs

@@ -7,7 +7,7 @@
 #include "convex/metric.hpp"
 
 /// Proofs in doubles: a point and a covector near the graph of the subdifferential, with bounds on how near.
-namespace convex {
+namespace convex::near_graphs {
 
 /// A point and a covector of real numbers that are known to some rounding only:
 ///   |x'_i - x_i| <= x_radius_i but for a part of norm |.|₂ <= x_ball, and the same of v',
@@ -40,4 +40,4 @@ NearGraph turned_round(NearGraph pair);
 /// `library_units`; a number that was read from text counts as it is written.
 std::optional<NearGraph> near_graph(const Call& f, const Metric& W, const Vector& x, const Vector& v);
 
-}  // namespace convex
+}  // namespace convex::near_graphs

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "convex/exact/rounding_bounds.hpp"
+#include "convex/proved_prox/doubles/metric_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
-#include "convex/proved_prox/proved_metric.hpp"
 
 namespace convex::near_graphs {
 

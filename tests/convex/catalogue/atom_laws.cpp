@@ -5,8 +5,8 @@
 
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
-#include "convex/catalogue/catalogue.hpp"
-#include "convex/gamma0/node.hpp"
+#include "convex/catalogue/entries/entries.hpp"
+#include "convex/composite/atom.hpp"
 
 using convex::Call;
 using convex::Function;

@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 
+#include "convex/composite/atom.hpp"
 #include "convex/composite/graph_algebra.hpp"
-#include "convex/gamma0/node.hpp"
 
 /// Atoms for tests of the engine, each written from its definition.
 namespace samples {

@@ -4,7 +4,7 @@
 
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/gamma0/node.hpp"
+#include "convex/composite/atom.hpp"
 
 using convex::Function;
 using convex::Metric;

@@ -6,8 +6,8 @@
 
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/composite/atom.hpp"
 #include "convex/functions/decomposition.hpp"
-#include "convex/gamma0/node.hpp"
 #include "convex/operations/operations.hpp"
 
 using namespace convex;

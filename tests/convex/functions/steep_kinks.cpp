@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/functions/cutting_planes.hpp"
+#include "convex/decompositions/cutting_planes.hpp"
 #include "convex/functions/decomposition.hpp"
 #include "tests/convex/operations/samples.hpp"
 

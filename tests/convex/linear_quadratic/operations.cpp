@@ -94,7 +94,7 @@ TEST_CASE("an envelope is the value of the problem that defines the prox, and it
     const LinearQuadratic smooth = lq::envelope(f, gamma, W);
     const Metric step = W.scaled(1 / gamma);
     const Vector x = prox(f, z, step).x;
-    const convex::Evaluation at = evaluate(smooth, z);
+    const lq::Evaluation at = evaluate(smooth, z);
     REQUIRE(at.v.has_value());
     CHECK(std::abs(at.value - value(f, x) - 0.5 * std::pow(step.norm(z - x), 2)) <=
           1e-12 * (1 + std::abs(at.value)));
@@ -142,7 +142,7 @@ TEST_CASE("whatever operations make of two functions, its prox and its conjugate
       CAPTURE(name);
       CAPTURE(operation);
       const LinearQuadratic& h = made[operation];
-      if (properness(h) != convex::Defect::none) continue;
+      if (properness(h) != lq::Defect::none) continue;
       ++proper;
       const Metric W = samples::random_metric(generator, n, 1e3);
       const Vector z = samples::tied_point(generator, n, 1);
@@ -188,10 +188,10 @@ TEST_CASE("improper functions are told from proper ones, with the reason") {
   const Vector one = Vector::Ones(n), z = Vector::Zero(n);
   const Metric I = Metric::identity(n);
   const LinearQuadratic apart[] = {lq::halfspace(one, -1), lq::halfspace(-one, -1)};
-  CHECK(properness(lq::sum(apart)) == convex::Defect::empty_domain);
+  CHECK(properness(lq::sum(apart)) == lq::Defect::empty_domain);
   CHECK(prox(lq::sum(apart), z, I).status == Status::infeasible);
   const LinearQuadratic falling = lq::inf_convolution(lq::linear(one), lq::norm1(n, 0.5));
-  CHECK(properness(falling) == convex::Defect::unbounded_below);
+  CHECK(properness(falling) == lq::Defect::unbounded_below);
   const Prox none = prox(falling, z, I);
   CHECK(none.status == Status::infeasible);
   CHECK(none.method == "active set: the function is -inf");
@@ -199,8 +199,8 @@ TEST_CASE("improper functions are told from proper ones, with the reason") {
   CHECK_THROWS_AS(require_proper(falling, "inf_convolution"), InvalidInput);
   for (const auto& [name, f] : samples::catalogue(3)) {
     CAPTURE(name);
-    CHECK(properness(f) == convex::Defect::none);
-    CHECK(properness(lq::conjugate(f)) == convex::Defect::none);
+    CHECK(properness(f) == lq::Defect::none);
+    CHECK(properness(lq::conjugate(f)) == lq::Defect::none);
   }
 }
 

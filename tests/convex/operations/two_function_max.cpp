@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "convex/composite/work_limit.hpp"
 #include "convex/functions/decomposition.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "convex/operations/operations.hpp"
 #include "tests/convex/operations/samples.hpp"
 

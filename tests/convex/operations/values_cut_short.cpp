@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "convex/composite/work_limit.hpp"
 #include "convex/gamma0/node.hpp"
+#include "convex/gamma0/work_limit.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 using convex::Function;

@@ -1,4 +1,4 @@
-#include "convex/proved_prox/doubles/proof_in_doubles.hpp"
+#include "convex/proved_prox/proof_in_doubles.hpp"
 
 #include <doctest/doctest.h>
 
@@ -134,7 +134,7 @@ TEST_CASE("a pair near any point and covector lies on the graph: it is the resol
     const Function f = make_function(one.call, {one.W});
     for (const double t : {0.0, 0.25, 1.0}) {
       const Vector x = one.split.x.x + t * Vector::LinSpaced(n, -0.5, 1), v = t * one.z + one.split.x.v;
-      const auto pair = near_graph(one.call, one.W, x, v);
+      const auto pair = near_graphs::near_graph(one.call, one.W, x, v);
       if (!pair) continue;
       const Prox again = f.prox(pair->x + pair->v, plain);
       if (again.status != Status::solved) continue;

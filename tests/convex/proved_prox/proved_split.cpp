@@ -1,4 +1,5 @@
 #include "convex/proved_prox/proved_split.hpp"
+#include "convex/proved_prox/doubles/metric_bounds.hpp"
 
 #include <doctest/doctest.h>
 
@@ -311,7 +312,7 @@ TEST_CASE(
 TEST_CASE("a bound of the least eigenvalue is below it, and near it where that is well conditioned") {
   for (const Metric& W : some_metrics()) {
     if (W.kind() != MetricKind::dense) continue;
-    const double least = least_eigenvalue_below(W.dense_gram());
+    const double least = near_graphs::least_eigenvalue_below(W.dense_gram());
     const double truth = Eigen::SelfAdjointEigenSolver<Matrix>(W.dense_gram()).eigenvalues().minCoeff();
     CHECK(least <= truth);
     CHECK(least >= 0.5 * truth);

@@ -9,7 +9,7 @@
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/functions/function.hpp"
+#include "convex/gamma0/function.hpp"
 
 using namespace convex;
 

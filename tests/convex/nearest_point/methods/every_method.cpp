@@ -3,10 +3,10 @@
 #include <string>
 #include <tuple>
 
-#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/methods.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
+#include "convex/nearest_point/working_set/working_set.hpp"
 #include "tests/oracles/nearest_point_error.hpp"
 #include "tests/oracles/planted_problem.hpp"
 #include "tests/oracles/rational_kkt.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "convex/nearest_point/pivoting/gram_method.hpp"
+#include "convex/nearest_point/active_set/gram_method.hpp"
 
 /// How the tests of `solve_by_gram_matrix` measure its answers.
 namespace gram_matrix {
