@@ -30,6 +30,8 @@ class EdgesFound {
         if (model_->tape.is_edge(program.node(i.a)) && x[i.a].may_be_zero()) add(program.node(i.a), " = 0");
       } else if (is_branch(i.operation) && (forces_from == 0 || slot < program.end(forces_from - 1))) {
         if ((x[i.a] - x[i.b]).may_be_zero()) add(program.node(slot), ", a tie");
+      } else if (is_at_cut(i.operation, x[i.a], x[i.b])) {
+        add(program.node(slot), " at its jump");
       }
     }
   }
@@ -44,12 +46,19 @@ class EdgesFound {
   }
 
  private:
+  /// atan2(y, x) jumps where y = 0 > x.
+  static bool is_at_cut(Operation operation, Rounded y, Rounded x) {
+    return operation == Operation::atan2 && y.may_be_zero() && x.value < 0;
+  }
   void add(NodeId node, const char* what) {
     constexpr std::size_t most_told = 4;
+    const Tape& tape = model_->tape;
+    if (tape.operation(node) == Operation::negate && tape.is_edge(node))
+      node = tape.a(node);  // sign(x) asks -x too
     if (!told_.insert(node).second) return;
     if (told_.size() == most_told + 1) text_ += ", …";
     if (told_.size() > most_told) return;
-    text_ += (text_.empty() ? "" : ", ") + written(model_->tape, node, model_->coordinates) + what;
+    text_ += (text_.empty() ? "" : ", ") + written(tape, node, model_->coordinates) + what;
   }
 
   const LagrangianModel* model_;
@@ -64,7 +73,10 @@ class EdgesFound {
 std::optional<Warning> branch_edges(const LagrangianSystem& system, const State& state,
                                     const StateRadii& radii) {
   const LagrangianModel& model = system.model();
-  if (!model.tape.has_branches()) return std::nullopt;
+  bool may_jump = model.tape.has_branches();
+  for (NodeId node = 0; node < model.tape.size() && !may_jump; ++node)
+    may_jump = model.tape.operation(node) == Operation::atan2;
+  if (!may_jump) return std::nullopt;
   EdgesFound found(model, state, radii);
   found.look_through(model.motion, 1);
   found.look_through(model.contacts, model.contacts.groups());

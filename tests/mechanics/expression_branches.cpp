@@ -116,6 +116,11 @@ TEST_CASE("a state between two branches is told, one beside them is not") {
     CAPTURE(std::string(force));
     CHECK(!edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, 0).empty());
   }
+  // sign(x) asks for -x as well.
+  CHECK(edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", "sign(x)"}}, {}}, 0).find("-x") == std::string::npos);
+  // The cut of atan2 is an edge, the positive axis is none.
+  CHECK(!edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", "atan2(x, -1)"}}, {}}, 0).empty());
+  CHECK(edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", "atan2(x, 1)"}}, {}}, 0).empty());
   // The knots of a table are no edges.
   CHECK(edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", "table(x, [0, 1, 2], [0, 1, 0])"}}, {}}, 1).empty());
 }
