@@ -49,6 +49,18 @@ TEST_CASE("where the impacts between walls that close in end with the walls toge
   }
 }
 
+TEST_CASE("a floor that comes up to the ceiling ever slower lays the body there, and sinks again") {
+  const SystemText touching{
+      {"y"}, "y'^2/2", "", {}, {}, {}, {{"floor", "y >= 1 - (t - 1)^2"}, {"ceiling", "y <= 1"}}};
+  for (const double e : {0.0, 0.5, 0.9}) {
+    CAPTURE(e);
+    const Followed found = followed(touching, state({0.5}, {2}), 2, restitution(touching, e));
+    CHECK(found.motion.status() == MotionStatus::done);
+    CHECK(found.end().q[0] == doctest::Approx(1).epsilon(1e-6));
+    CHECK(std::abs(found.end().v[0]) <= 1e-6);
+  }
+}
+
 TEST_CASE("walls that close in and stop are followed, however many impacts there are") {
   // Between walls at 1 -+ w the speed v is kept up to small terms as 1/w.
   const SystemText closing{{"x"},

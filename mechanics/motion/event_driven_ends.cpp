@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/motion/event_driven.hpp"
+
+namespace mechanics::inline motions {
+namespace {
+
+/// Bounces lower than so many roundings of f come at times that rounding decides.
+constexpr double roundings_of_bounce = 64;
+
+/// Impacts of one contact that are followed one by one, however high they bounce, where the intervals of all
+/// of them shrink by a ratio so steady that the time left is known to a hundredth.
+constexpr long most_impacts_followed = 100'000;
+constexpr double known_remainder = 0.01;
+/// f of a closed contact is 0 up to so many roundings of what it is the sum of.
+constexpr double roundings_of_gap = 16;
+
+bool is_one_of(const std::vector<Index>& all, Index a) {
+  return std::find(all.begin(), all.end(), a) != all.end();
+}
+
+}  // namespace
+
+/// Whether contacts that exclude each other at an impact do so by no more than rounding of f tells: at speeds
+/// w with w² <= 2 f'' f they come to rest before f is below 0, as walls that close in on each other ever
+/// slower. f'' is that of the walls, q'' = 0.
+bool Motion::EventDriven::may_stop_in_time(const std::vector<Index>& contacts) {
+  const Vector second = -system.contact_rows(state, contacts).s;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Index a = contacts[k];
+    const double rate = expansion_.drift(a), gap = roundings_of_gap * epsilon * expansion_.position_scale(a);
+    if (rate < -expansion_.rounding_of_rate(a) && !(rate * rate <= 2 * second[static_cast<Index>(k)] * gap))
+      return false;
+  }
+  return true;
+}
+
+/// The least change of velocity after which contacts are at rest; of walls that close in not both are.
+std::vector<Index> Motion::EventDriven::brought_to_rest(std::vector<Index> contacts) {
+  constexpr double at_rest = 1e-3;  // of the fastest of them
+  Vector rates(static_cast<Index>(contacts.size())), u;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    rates[static_cast<Index>(k)] = expansion_.rate(contacts[k]);
+  const Vector change = expansion_.held_rows(contacts).least_change(-rates);
+  const double fastest = rates.cwiseAbs().maxCoeff();
+  std::erase_if(contacts, [&](Index a) {
+    expansion_.row(a, u);
+    return std::abs(expansion_.rate(a) + u.dot(change)) > at_rest * fastest + expansion_.rounding_of_rate(a);
+  });
+  state.v += change;
+  return contacts;
+}
+
+std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& closing) const {
+  std::vector<Index> found;
+  const auto is_near_its_end = [&](Index a) {
+    const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
+    if (!history.shrinks()) return false;
+    const double scale = std::max(history.highest(), roundings_of_bounce * expansion_.position_scale(a));
+    return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * clock() ||
+           (history.shrinking() >= most_impacts_followed && history.slows() &&
+            history.end_error() <= known_remainder * history.remaining() &&
+            start_ + history.end() + history.end_error() <= until_);
+  };
+  for (const Index a : closing)
+    if (is_near_its_end(a)) found.push_back(a);
+  if (found.empty()) return found;
+  if (time_stands_still()) {  // with all that struck at this instant
+    for (Index a = 0; a < expansion_.constraints(); ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      if (!is_one_of(found, a) && !is_two_sided(a) && elapsed_[k] <= roundings_of_bounce * epsilon * clock())
+        found.push_back(a);
+    }
+    return found;
+  }
+  // Contacts whose impacts alternate with these come to their end at the same time.
+  const double remaining = history_[static_cast<std::size_t>(found.front())].remaining();
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
+    if (is_one_of(found, a) || is_two_sided(a) || !history.shrinks()) continue;
+    const double end = history.remaining() - elapsed_[static_cast<std::size_t>(a)];
+    constexpr double alike = 0.05;
+    if (std::abs(end - remaining) <= alike * remaining) found.push_back(a);
+  }
+  return found;
+}
+
+}  // namespace mechanics::inline motions
