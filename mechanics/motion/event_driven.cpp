@@ -101,7 +101,13 @@ bool Motion::EventDriven::advance(double until) {
   try {
     take_step(until);
   } catch (const convex::InvalidInput& error) {
-    stop("at t = " + number_text(state.t) + ": " + error.what());
+    constexpr double grown = 1e12;
+    const double largest =
+        state.q.size() > 0 ? std::max(state.q.cwiseAbs().maxCoeff(), state.v.cwiseAbs().maxCoeff()) : 0;
+    stop("at t = " + number_text(state.t) + ": " + error.what() +
+         (largest > grown ? "; coordinates or velocities have grown to " + number_text(largest) +
+                                ", as where a motion comes to infinity in a finite time"
+                          : ""));
   }
   const bool goes_on = since_start_ > before;
   events_at_once_ = goes_on ? 0 : events_at_once_ + 1;
