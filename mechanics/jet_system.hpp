@@ -46,7 +46,9 @@ class Lifted {
   friend Lifted asin(const Lifted& x) { return Lifted(ceres::asin(x.jet)); }
   friend Lifted acos(const Lifted& x) { return Lifted(ceres::acos(x.jet)); }
   friend Lifted atan(const Lifted& x) { return Lifted(ceres::atan(x.jet)); }
-  friend Lifted atan2(const Lifted& y, const Lifted& x) { return Lifted(ceres::atan2(y.jet, x.jet)); }
+  friend Lifted atan2(const Lifted& y, const Lifted& x) {
+    return Lifted(ceres::atan2(y.jet + 0.0, x.jet + 0.0));
+  }
   friend Lifted sinh(const Lifted& x) { return Lifted(ceres::sinh(x.jet)); }
   friend Lifted cosh(const Lifted& x) { return Lifted(ceres::cosh(x.jet)); }
   friend Lifted tanh(const Lifted& x) { return Lifted(ceres::tanh(x.jet)); }

@@ -28,6 +28,8 @@ std::string unknown_command(const CLI::App& app, const std::string& first) {
     if (command->get_name() == first) return "";
     if (!command->get_group().empty()) known.push_back(command->get_name());
   }
+  if (first.ends_with(".toml") || first.ends_with(".json"))
+    return "a command comes before the file; try `moreau solve " + first + "`";
   return "unknown command \"" + first + "\"; " + convex::suggestion(first, known);
 }
 

@@ -114,8 +114,11 @@ std::string advice_on_rest(const std::string& token, const std::string& given) {
     return "\"" + rest.substr(0, 2) + "\" begins no comment; write # before it";
   if (token.front() == '"') return "";
   const std::string behind = rest.substr(0, rest.find_first_of("#,}"));
-  if (c == ',' && rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0)
-    return "a decimal comma; write " + token + "." + without_spaces_around(rest.substr(1));
+  if (c == ',' && rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0) {
+    const std::string digits = without_spaces_around(rest.substr(1));
+    return digits.size() == 3 ? "a comma in a number; write " + token + "." + digits + " or " + token + digits
+                              : "a decimal comma; write " + token + "." + digits;
+  }
   if (is_letter(c) && (behind.find_first_of("*^()=<>+") == std::string::npos || is_unit(behind)))
     return token + " " + without_spaces_around(behind) + " is no number; write " + token +
            " with its unit in a comment, # " + without_spaces_around(behind) +
@@ -131,6 +134,11 @@ std::string advice_on_value(const Spot& spot) {
     return close == std::string::npos ? ""
                                       : advice_on_rest(from.substr(0, close + 1), from.substr(close + 1));
   }
+  if (!from.empty() && from.front() == '\'' && from.find('\'', 1) != std::string::npos)
+    return "the text in '…' ends at its first prime, as that of x'; write it in \"…\"";
+  if (from.rfind("\xe2\x80\x9c", 0) == 0 || from.rfind("\xe2\x80\x9d", 0) == 0 ||
+      from.rfind("\xe2\x80\x9e", 0) == 0)
+    return "no quotation marks of TOML; write straight ones, \"";
   if (from.size() > 1 && from.front() == '.' && std::isdigit(static_cast<unsigned char>(from[1])) != 0)
     return "a number begins with a digit; write 0" + spot.value;
   char* end = nullptr;
@@ -206,6 +214,8 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
 }  // namespace
 
 std::string advice_on_slip(const std::string& text, convex::Place place, std::string_view description) {
+  if (says(description, "root table") && says(description, "saw '%'"))
+    return "\"%\" begins no comment; write # before it";
   if (says(description, "root table") && says(description, "saw '{'"))
     return "this is JSON, not TOML; name the file .json";
   const Spot spot = spot_of(text, place);

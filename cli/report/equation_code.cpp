@@ -144,11 +144,14 @@ class EquationCode {
         return call(is_c ? "fabs" : "abs", node);
       case Operation::asin:
       case Operation::acos:
-      case Operation::atan:
-      case Operation::atan2: {
+      case Operation::atan: {
         const std::string name(symbol(operation));
         return call(is_c ? name : "arc" + name.substr(1), node);
       }
+      case Operation::atan2:  // -0 is 0
+        return {std::string(is_c ? "atan2(" : "np.arctan2(") + within(tape_.a(node), Binding::sum) +
+                    " + 0.0, " + within(tape_.b(node), Binding::sum) + " + 0.0)",
+                Binding::atom};
       case Operation::sign: {
         const std::string a = within(tape_.a(node), Binding::sum);
         const CodePiece below = choice(a + " < 0.0", "-1.0", is_c ? "NAN" : "np.nan");

@@ -24,7 +24,7 @@ constexpr double roundings_of_f = 16;
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
-/// So many steps without an event, of so few roundings of the time each, lead nowhere.
+/// So many steps without an event, of so few roundings of the time since the start each, lead nowhere.
 constexpr long steps_looked_at = 1000;
 constexpr double roundings_of_step = 4;
 
@@ -118,7 +118,7 @@ bool Motion::EventDriven::advance(double until) {
          advice_on_kinks());
   if (record.events != events_at_mark_) mark_ = -1;
   if (mark_ < 0 || record.steps - mark_ >= steps_looked_at) {
-    const double shortest = static_cast<double>(steps_looked_at) * roundings_of_step * epsilon * clock();
+    const double shortest = static_cast<double>(steps_looked_at) * roundings_of_step * epsilon * since_start_;
     if (status == MotionStatus::done && mark_ >= 0 && since_start_ - time_of_mark_ < shortest)
       stop("at t = " + number_text(state.t) +
            ": steps shorter than the digits of t do not get past; a derivative has no bound there, as that "

@@ -85,7 +85,7 @@ class Motion::EventDriven final : public Motion::Course {
   /// is an impact, a separation, or the end, and nothing is left to do.
   bool meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   void note_behind();
-  double difference_at_zero(std::size_t k);
+  double difference_at_zero(std::size_t k, const std::vector<Index>& switches);
   std::string jump_of_energy(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   void note_unloading(const std::vector<Zero>& zeros);
   ContactQuestion question_of(const std::vector<Index>& contacts) const;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "mechanics/motion/event_driven.hpp"
@@ -94,13 +95,13 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_where_zero_stays(const 
       expansion_.branch(static_cast<std::size_t>(k)) = 0;
     }
   if (zeros.empty()) return beside;
-  expansion_.set(state);
+  follow_jumps(switches);
   ContactAnswer answer = expansion_.expand(question);
   if (answer.excluding.empty() && is_consistent(switches) && std::all_of(zeros.begin(), zeros.end(), stays))
     return answer;
   for (std::size_t j = 0; j < zeros.size(); ++j)
     expansion_.branch(static_cast<std::size_t>(zeros[j])) = branches[j];
-  expansion_.set(state);
+  follow_jumps(switches);
   beside = expansion_.expand(question);
   if (!is_consistent(switches)) return std::nullopt;
   return beside;
@@ -119,15 +120,18 @@ void Motion::EventDriven::note_behind() {
 
 /// The difference of T - V between the branches of a switch, at the zero of its argument: events that
 /// rounding does not tell apart are met at the first of them, where the argument of a later one is not 0 yet,
-/// and T - V with a kink differs by as much of its slope.
-double Motion::EventDriven::difference_at_zero(std::size_t k) {
-  double& branch = expansion_.branch(k);
-  const double ahead = branch, behind = branches_behind_[k], argument = expansion_.switch_argument(k)[0],
+/// and T - V with a kink differs by as much of its slope. Branches that jump with it, none of the switches
+/// themselves, go along.
+double Motion::EventDriven::difference_at_zero(std::size_t k, const std::vector<Index>& switches) {
+  std::vector<double> branches;
+  for (std::size_t j = 0; j < expansion_.switches(); ++j) branches.push_back(expansion_.branch(j));
+  const double ahead = branches[k], behind = branches_behind_[k], argument = expansion_.switch_argument(k)[0],
                speed = expansion_.switch_argument(k)[1];
   const auto difference = [&](const State& at) {
     double found = 0;
-    for (const double side : {behind, ahead}) {
-      branch = side;
+    for (const std::vector<double>& side : {std::cref(branches_behind_), std::cref(branches)}) {
+      for (std::size_t j = 0; j < branches.size(); ++j)
+        if (j == k || !is_among(switches, static_cast<Index>(j))) expansion_.branch(j) = side[j];
       expansion_.set(at);
       found = expansion_.lagrangian() - found;
     }
@@ -152,7 +156,7 @@ std::string Motion::EventDriven::jump_of_energy(const std::vector<Index>& contac
     return expansion_.depends_on_position(static_cast<std::size_t>(k));
   });
   const auto jumps = [&](Index k) {
-    return std::abs(difference_at_zero(static_cast<std::size_t>(k))) > half_the_digits * scale;
+    return std::abs(difference_at_zero(static_cast<std::size_t>(k), switches)) > half_the_digits * scale;
   };
   if (over_positions && std::abs(change) > half_the_digits * scale) {
     if (std::any_of(switches.begin(), switches.end(), jumps))
@@ -310,14 +314,16 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   undefined_beyond_.clear();
   constexpr std::size_t most_tried = 8;
   const std::size_t tried = std::min(switches.size(), most_tried);
+  const bool begins = record.steps == 0;  // on the branch of the text, where 0 is not negative
   for (const Index k : switches)
     if (double& branch = expansion_.branch(static_cast<std::size_t>(k)); branch == 0) branch = 1;
   for (std::size_t choice = 0; choice < (std::size_t{1} << tried); ++choice) {
     for (std::size_t j = 0; j < switches.size(); ++j) {
       double& branch = expansion_.branch(static_cast<std::size_t>(switches[j]));
       // Counting in Gray's order changes one branch at a time.
-      if (choice == 0 || (j < tried && ((choice ^ (choice >> 1U)) ^ ((choice - 1) ^ ((choice - 1) >> 1U))) ==
-                                           (std::size_t{1} << j)))
+      if ((choice == 0 && !begins) ||
+          (choice > 0 && j < tried &&
+           ((choice ^ (choice >> 1U)) ^ ((choice - 1) ^ ((choice - 1) >> 1U))) == (std::size_t{1} << j)))
         branch = -branch;
     }
     try {

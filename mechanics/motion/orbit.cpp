@@ -108,39 +108,31 @@ class KeptEnergy {
   double value_ = 0;
 };
 
-/// What drives a motion is the same a period later, to this part of its largest on the way; rounding of the
-/// period and of t is far below.
-constexpr double repeated_forcing = 1e-8;
+/// A motion that comes back does so again a period later, to this part of how far it goes and to what the
+/// rounding of t makes of it.
+constexpr double again = 1e-6, roundings_of_phase = 100;
 
-/// Throws InvalidInput where A, z, f or df/dt of a state on the way are others a period later: a state that
-/// comes back then does not go on as it did.
-void require_forcing_of_period(const LagrangianSystem& system, const Flight& flight, double period) {
-  const auto numbers = [&](State at) {
-    const Inertia inertia = system.inertia(at);
-    const ConstraintRates rates = system.constraint_rates(at);
-    const Index entries = inertia.A.nonZeros(), n = inertia.z.size(), m = rates.f.size();
-    Vector all(entries + n + 2 * m);
-    all << Eigen::Map<const Vector>(inertia.A.valuePtr(), entries), inertia.z, rates.f, rates.df;
-    return all;
-  };
-  std::vector<Vector> before, later;
-  Vector largest;
-  for (const FlightPiece& piece : flight.pieces) {
-    State at = piece.after;
-    before.push_back(numbers(at));
-    at.t += period;
-    later.push_back(numbers(at));
-    if (largest.size() == 0) largest = Vector::Zero(before.back().size());
-    if (before.back().size() != largest.size() || later.back().size() != largest.size()) return;
-    largest = largest.cwiseMax(before.back().cwiseAbs());
-  }
-  for (std::size_t k = 0; k < before.size(); ++k)
-    if (((later[k] - before[k]).cwiseAbs().array() > repeated_forcing * largest.array()).any())
-      throw convex::InvalidInput(
-          "what drives the motion at t = " + number_text(flight.pieces[k].after.t) + " is another at t = " +
-          number_text(flight.pieces[k].after.t + period) + ": " + number_text(period) +
-          " is neither a period of it nor a multiple of one; give one, as an expression such as "
-          "\"2*pi/w\"");
+/// Whether what drives the motion from x is the same a period later, by the motion from there. A state that
+/// comes back after some other time does not go on as it did. What cannot be followed there, as beyond the
+/// end of a table, tells nothing.
+bool is_driven_alike(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question,
+                     const Vector& x, double period) {
+  if (question.is_free || !system.equations_of_motion().series.steps.uses_time) return true;
+  const PeriodMap map(system, guess.t + period, question);
+  const Flight flight = map.fly(x, period);
+  const double by_rounding =
+      roundings_of_phase * std::numeric_limits<double>::epsilon() * (std::abs(guess.t) + period) / period;
+  return !flight.arrives || map.relative(map.miss(flight, x), flight) <= again + by_rounding;
+}
+
+/// Whether a motion stays where it is, as far as Newton's method tells: an equilibrium comes back after any
+/// time.
+bool is_at_rest(const Flight& flight, const Vector& x) {
+  constexpr double moved = 1e-7;
+  Vector way = Vector::Zero(x.size());
+  for (const FlightPiece& piece : flight.pieces) way = way.cwiseMax((as_one(piece.after) - x).cwiseAbs());
+  const Index n = x.size() / 2;
+  return way.head(n).maxCoeff() <= moved * std::max(1.0, flight.largest.head(n).maxCoeff());
 }
 
 /// The orbit by the map from the time of the guess.
@@ -160,8 +152,6 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
   const Index n = guess.q.size(), size = chart->dimension(), unknowns = size + (question.is_free ? 1 : 0);
   Vector x = as_one(orbit.start);
   Flight flight = map.fly(x, orbit.period);
-  if (system.equations_of_motion().series.steps.uses_time)
-    require_forcing_of_period(system, flight, orbit.period);
   if (!flight.arrives) {
     orbit.why = flight.why;
     return orbit;
@@ -240,6 +230,16 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
     return orbit;
   }
   orbit.why = why_not_repeated(system, near, map, flight, x, orbit.period);
+  if (!orbit.why.empty()) return orbit;
+  if (!is_driven_alike(system, guess, near, flight.end - miss, orbit.period))
+    orbit.why = "the motion that comes back after " + number_text(orbit.period) +
+                " does not do so again, for this is neither a period of what drives it nor a multiple of "
+                "one; give one, as "
+                "an expression such as \"2*pi/w\"";
+  if (question.is_free && is_at_rest(flight, x))
+    orbit.why =
+        "the motion that comes back is at rest: an equilibrium, which has no period; begin at a motion that "
+        "goes around";
   if (!orbit.why.empty()) return orbit;
   orbit.is_found = true;
   note_passage(flight, system, orbit);

@@ -202,11 +202,50 @@ TEST_CASE("a branch whose argument jumps with another is taken anew there") {
   CHECK(motion.end().q[0] == doctest::Approx(v * t + t * t / 2).epsilon(1e-12));
 }
 
+TEST_CASE("a motion begins on the branch of the text, where 0 is not negative") {
+  // atan2(y, x) is pi at (-1, 0): the force of this potential is upwards, away from the floor.
+  for (const char* floor : {"y >= 0", "y >= -1"}) {
+    CAPTURE(floor);
+    const Followed motion =
+        followed({{"x", "y"}, "(x'^2+y'^2)/2", "atan2(y, x)^2/2", {}, {}, {}, {{"c", floor}}},
+                 state({-1, 0}, {0, 0}), 1);
+    CHECK(motion.end().q[1] > 1);
+    CHECK(motion.motion.energy() == doctest::Approx(std::acos(-1.0) * std::acos(-1.0) / 2).epsilon(1e-12));
+  }
+  CHECK(followed({{"y"}, "y'^2/2", "", {}, {}, {{"y", "if(y < 0, -1, 1)"}}, {}}, state({0}, {0}), 1)
+            .end()
+            .q[0] == doctest::Approx(0.5));
+  CHECK(followed({{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"y", "sign(if(x < 0, y, 1))"}}, {}},
+                 state({0, -1}, {0, 0}), 1)
+            .end()
+            .q[1] == doctest::Approx(-0.5));
+}
+
+TEST_CASE("a potential that jumps where an angle does, or with another branch, stops the motion") {
+  for (const SystemText& text : {SystemText{{"a"}, "a'^2/2", "max(atan2(sin(a), cos(a)), 0)", {}, {}, {}, {}},
+                                 SystemText{{"a"}, "a'^2/2", "max(if(a < 3.1, a, -1), 0)", {}, {}, {}, {}}}) {
+    const Followed motion = followed(text, state({3}, {3}), 1);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(motion.motion.why().find("energy jumps") != std::string::npos);
+  }
+}
+
+TEST_CASE("the angle of the axis itself is 0, then pi") {
+  const Followed motion =
+      followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "atan2(0, t)"}}, {}}, state({0}, {0}, -1), 1);
+  CHECK(motion.end().q[0] == doctest::Approx(1.5 * std::acos(-1.0)).epsilon(1e-12));
+}
+
 TEST_CASE("the root of a square is followed as the magnitude that it is") {
   const SystemText root{{"a"}, "a'^2/2", "3*sqrt((a-3)^2)", {}, {}, {}, {}},
       magnitude{{"a"}, "a'^2/2", "3*abs(a-3)", {}, {}, {}, {}};
   const auto along = [](const SystemText& text) { return followed(text, state({0.7}, {5}), 7).end().q[0]; };
   CHECK(along(root) == doctest::Approx(along(magnitude)).epsilon(1e-12));
+  for (const char* other : {"sqrt(9*(a-3)^2)", "3*((a-3)^2)^0.5", "sqrt((a-3)*(a-3)/4)*6"}) {
+    CAPTURE(other);
+    CHECK(along({{"a"}, "a'^2/2", other, {}, {}, {}, {}}) ==
+          doctest::Approx(along(magnitude)).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("steps that get shorter without end stop the motion with the reason") {
