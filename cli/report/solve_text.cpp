@@ -10,6 +10,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "convex/double_double.hpp"
+#include "convex/exact/ball.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/exact_gauss_solution.hpp"
 #include "mechanics/gauss_laws.hpp"
@@ -177,8 +178,9 @@ std::string from_text_text(const SolvedScene& solved) {
     text = fmt::format(
         "From the text: contact is not decided for {}, no rule known here shows f and df/dt to be 0{}",
         constraints_text(solved, proof.open),
-        is_proved(solved.certificate)
-            ? ", which makes no difference"
+        is_proved(solved.certificate) ? ", which makes no difference"
+        : !convex::Ball::why_none().empty()
+            ? " (" + convex::Ball::why_none() + ")"
             : "; write the state or the constraint so that they cancel term by term");
   if (proof.error_bound && is_proved(solved.certificate) && !solved.infeasible())
     text += fmt::format("; the acceleration is that of the mechanism as written{} to {:.1e}",
