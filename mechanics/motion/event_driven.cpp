@@ -24,7 +24,7 @@ constexpr double roundings_of_f = 16;
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
-/// So many steps without an event, of so few roundings of the time since the start each, lead nowhere.
+/// So many steps without an impact, of so few roundings of the time since the start each, lead nowhere.
 constexpr long steps_looked_at = 1000;
 constexpr double roundings_of_step = 4;
 
@@ -116,7 +116,7 @@ bool Motion::EventDriven::advance(double until) {
   if (status == MotionStatus::done && events_at_once_ > most_events_at_once * (m + 1))
     stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant" +
          advice_on_kinks());
-  if (record.events != events_at_mark_) mark_ = -1;
+  if (record.impacts != impacts_at_mark_) mark_ = -1;
   if (mark_ < 0 || record.steps - mark_ >= steps_looked_at) {
     const double shortest = static_cast<double>(steps_looked_at) * roundings_of_step * epsilon * since_start_;
     if (status == MotionStatus::done && mark_ >= 0 && since_start_ - time_of_mark_ < shortest)
@@ -124,7 +124,7 @@ bool Motion::EventDriven::advance(double until) {
            ": steps shorter than the digits of t do not get past; a derivative has no bound there, as that "
            "of asin, acos and "
            "sqrt at the end of their range; write the expressions without it");
-    mark_ = record.steps, events_at_mark_ = record.events, time_of_mark_ = since_start_;
+    mark_ = record.steps, impacts_at_mark_ = record.impacts, time_of_mark_ = since_start_;
   }
   if (status != MotionStatus::done && next.t != state.t) forget_right_limits();
   return status == MotionStatus::done || !events.empty() || goes_on || low_ > low_before;

@@ -80,7 +80,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   const std::vector<Index>& switches);
   bool is_consistent(const std::vector<Index>& switches);
-  void follow_jumps(const std::vector<Index>& jumping);
+  void follow_jumps(const std::vector<Index>& jumping, const std::vector<double>& before = {});
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
   /// is an impact, a separation, or the end, and nothing is left to do.
   bool meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);
@@ -133,7 +133,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool is_blind_ = false;         // the step ahead is not the one that its series tell
   double step_ahead_ = 0;
   long events_at_once_ = 0, kinks_at_once_ = 0;
-  long mark_ = -1, events_at_mark_ = 0;  // steps, events and time where progress was looked at last
+  long mark_ = -1, impacts_at_mark_ = 0;  // steps, impacts and time where progress was looked at last
   double time_of_mark_ = 0;
   double until_ = std::numeric_limits<double>::infinity();  // not asked for yet
   /// At an event, on the branches before it, with the velocity after it.

@@ -16,6 +16,10 @@ constexpr double roundings_of_instant = 64;
 /// jump.
 constexpr double half_the_digits = 0x1p-26;
 
+/// An argument at 0 is so within some roundings of its terms and of the time; one of so many has jumped off
+/// it.
+constexpr double jumped = 0x1p26;
+
 bool is_among(const std::vector<Index>& all, Index a) {
   return std::find(all.begin(), all.end(), a) != all.end();
 }
@@ -69,7 +73,13 @@ bool Motion::EventDriven::is_consistent(const std::vector<Index>& switches) {
     const auto k = static_cast<std::size_t>(which);
     const std::span<const double> c = expansion_.switch_argument(k);
     const std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
-    std::size_t first = 1;
+    // One that contains others at 0 may have jumped off it with them: by more than rounding and what it does
+    // on an arc.
+    const double length = last_length_ > 0 ? last_length_ : 1;
+    double farthest = jumped * by_rounding[0], power = 1;
+    for (std::size_t i = 1; i < c.size(); ++i)
+      farthest = std::max(farthest, std::abs(c[i]) * (power *= length) / jumped);
+    std::size_t first = std::abs(c[0]) > farthest ? 0 : 1;
     while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) ++first;
     if (first < c.size() && !(c[first] * expansion_.branch(k) > 0)) return false;
     zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
@@ -105,17 +115,6 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_where_zero_stays(const 
   beside = expansion_.expand(question);
   if (!is_consistent(switches)) return std::nullopt;
   return beside;
-}
-
-void Motion::EventDriven::note_behind() {
-  behind_.reset();
-  if (expansion_.switches() == 0) return;
-  const Index m = expansion_.constraints();
-  behind_ = Behind{expansion_.lagrangian(), expansion_.momentum(), Vector(m), Vector(m)};
-  for (Index a = 0; a < m; ++a) {
-    behind_->f[a] = expansion_.f(a);
-    behind_->rate[a] = expansion_.rate(a);
-  }
 }
 
 /// The difference of T - V between the branches of a switch, at the zero of its argument: events that
@@ -296,13 +295,16 @@ ContactQuestion Motion::EventDriven::question_of(const std::vector<Index>& conta
 
 /// The branches of the others where these jump, and with them an argument such as that of sign(if(x < 0, y,
 /// 1)).
-void Motion::EventDriven::follow_jumps(const std::vector<Index>& jumping) {
+void Motion::EventDriven::follow_jumps(const std::vector<Index>& jumping, const std::vector<double>& before) {
   expansion_.set(state);
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
-    const double argument = expansion_.switch_argument(k)[0];
-    if (!(argument * expansion_.branch(k) < 0) || is_among(jumping, static_cast<Index>(k))) continue;
-    if (!(std::abs(argument) > expansion_.rounding_of_switch(k)[0])) continue;
-    expansion_.branch(k) = -expansion_.branch(k);
+    if (is_among(jumping, static_cast<Index>(k))) continue;
+    const double argument = expansion_.switch_argument(k)[0], rounding = expansion_.rounding_of_switch(k)[0];
+    const bool is_at_zero = std::abs(argument) <= rounding,
+               was_off = k < before.size() && std::abs(before[k]) > jumped * rounding;
+    const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
+    if (branch == expansion_.branch(k)) continue;
+    expansion_.branch(k) = branch;
     expansion_.set(state);
   }
 }
@@ -314,6 +316,8 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   undefined_beyond_.clear();
   constexpr std::size_t most_tried = 8;
   const std::size_t tried = std::min(switches.size(), most_tried);
+  std::vector<double> before;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) before.push_back(expansion_.switch_argument(k)[0]);
   const bool begins = record.steps == 0;  // on the branch of the text, where 0 is not negative
   for (const Index k : switches)
     if (double& branch = expansion_.branch(static_cast<std::size_t>(k)); branch == 0) branch = 1;
@@ -327,7 +331,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
         branch = -branch;
     }
     try {
-      if (!switches.empty()) follow_jumps(switches);
+      if (!switches.empty()) follow_jumps(switches, before);
       ContactAnswer answer = expansion_.expand(question);
       if (!answer.excluding.empty()) return answer;
       if (is_consistent(switches)) return answer_where_zero_stays(question, switches, std::move(answer));

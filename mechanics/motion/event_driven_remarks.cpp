@@ -198,4 +198,15 @@ std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contac
          advice_on_kinks();
 }
 
+void Motion::EventDriven::note_behind() {
+  behind_.reset();
+  if (expansion_.switches() == 0) return;
+  const Index m = expansion_.constraints();
+  behind_ = Behind{expansion_.lagrangian(), expansion_.momentum(), Vector(m), Vector(m)};
+  for (Index a = 0; a < m; ++a) {
+    behind_->f[a] = expansion_.f(a);
+    behind_->rate[a] = expansion_.rate(a);
+  }
+}
+
 }  // namespace mechanics::inline motions

@@ -125,14 +125,14 @@ bool is_driven_alike(const LagrangianSystem& system, const State& guess, const O
   return !flight.arrives || map.relative(map.miss(flight, x), flight) <= again + by_rounding;
 }
 
-/// Whether a motion stays where it is, as far as Newton's method tells: an equilibrium comes back after any
-/// time.
-bool is_at_rest(const Flight& flight, const Vector& x) {
-  constexpr double moved = 1e-7;
+/// Whether a motion goes no farther than it misses its start, by some thousand times: it stays near an
+/// equilibrium, which comes back after any time.
+bool is_at_rest(const Flight& flight, const Vector& x, const Vector& miss) {
+  constexpr double farther = 1e3;
   Vector way = Vector::Zero(x.size());
   for (const FlightPiece& piece : flight.pieces) way = way.cwiseMax((as_one(piece.after) - x).cwiseAbs());
   const Index n = x.size() / 2;
-  return way.head(n).maxCoeff() <= moved * std::max(1.0, flight.largest.head(n).maxCoeff());
+  return way.head(n).maxCoeff() <= farther * miss.head(n).cwiseAbs().maxCoeff();
 }
 
 /// The orbit by the map from the time of the guess.
@@ -236,7 +236,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
                 " does not do so again, for this is neither a period of what drives it nor a multiple of "
                 "one; give one, as "
                 "an expression such as \"2*pi/w\"";
-  if (question.is_free && is_at_rest(flight, x))
+  if (question.is_free && is_at_rest(flight, x, miss))
     orbit.why =
         "the motion that comes back is at rest: an equilibrium, which has no period; begin at a motion that "
         "goes around";

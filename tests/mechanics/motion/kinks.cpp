@@ -263,3 +263,28 @@ TEST_CASE("the angle of a point on the negative axis is pi, whatever the sign of
     CHECK(made->inertia(state({-1, 0}, {0, 0})).z[0] == std::acos(-1.0));
   }
 }
+
+TEST_CASE("a branch goes on where another makes its argument jump off 0, or onto it") {
+  struct Case {
+    const char* force;
+    mechanics::State start;
+    double until, x, v;
+  };
+  const Case cases[] = {{"sign(step(x))", state({-1, 0}, {1, 0}), 3, 4, 3},
+                        {"max(step(t - 1), 0)", state({-1, 0}, {1, 0}), 3, 4, 3},
+                        {"if(step(t - 1) > 0, 1, 0)", state({-1, 0}, {1, 0}), 3, 4, 3},
+                        {"if(sign(y) <= sign(-0.5), 1, 0)", state({0, 0.5}, {0, -1}), 1, 0.125, 0.5},
+                        {"if(step(x) >= step(y), 1, 0)", state({-0.25, -0.5}, {0, 1}), 1, 0.15625, 0.75},
+                        {"sign(step(y))", state({0, 0.5}, {0, -1}), 1, 0.375, 0.5},
+                        {"max(sign(x), -sign(x))", state({0, 0}, {1, 0}), 2, 4, 3},
+                        {"abs(sign(x))", state({0, 0}, {1, 0}), 2, 4, 3},
+                        {"sign(sign(t))", state({0, 0}, {0, 0}), 1, 0.5, 1},
+                        {"sqrt(sign(x)^2)", state({0, 0}, {0.5, 0}), 1, 1, 1.5}};
+  for (const Case& one : cases) {
+    CAPTURE(one.force);
+    const Followed motion =
+        followed({{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"x", one.force}}, {}}, one.start, one.until);
+    CHECK(motion.end().q[0] == doctest::Approx(one.x).epsilon(1e-12));
+    CHECK(motion.end().v[0] == doctest::Approx(one.v).epsilon(1e-12));
+  }
+}

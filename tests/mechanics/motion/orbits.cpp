@@ -91,6 +91,10 @@ TEST_CASE("an equilibrium has no period of its own") {
   const Orbit found = find_orbit(*damped, state({-0.9}, {0}), question);
   CHECK_FALSE(found.is_found);
   CHECK(found.why.find("equilibrium") != std::string::npos);
+  // Small orbits, and those far from 0, are none.
+  for (const auto& [force, x] : {std::pair{"-sin(x)", 1e-7}, std::pair{"-(x-1e6)*(1+(x-1e6)^2)", 1e6 + 0.05}})
+    CHECK(find_orbit(*system({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}), state({x}, {0}), question)
+              .is_found);
 }
 
 TEST_CASE("a forced linear oscillator has the multipliers exp(lambda T)") {
