@@ -48,8 +48,7 @@ void ImpactHistory::add(double since, double speed, double t, double noise, doub
 
 std::optional<double> ImpactHistory::end_of_gain() const {
   constexpr long fewest = 8;  // four marks
-  // The gap has shrunk a thousand times, and all the time by one law; after a hundred thousand impacts about
-  // so.
+  // The gap has shrunk a thousand times by one law; after a hundred thousand impacts by about one.
   const double by_one_law = count_ < (1L << 17) ? 1e-3 : 0.1;
   if (count_ < fewest || !std::has_single_bit(static_cast<unsigned long>(count_))) return std::nullopt;
   if (!std::is_sorted(mark_speed_, mark_speed_ + 4, std::greater<>())) return std::nullopt;

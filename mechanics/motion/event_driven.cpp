@@ -28,10 +28,6 @@ constexpr long most_events_at_once = 50;
 constexpr long steps_looked_at = 1000;
 constexpr double roundings_of_step = 4;
 
-bool is_in(const std::vector<Index>& all, Index a) {
-  return std::find(all.begin(), all.end(), a) != all.end();
-}
-
 }  // namespace
 
 Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, MotionOptions chosen)
@@ -77,7 +73,7 @@ void Motion::EventDriven::begin(const State& at) {
   std::vector<Index> opening;  // f = 0 and df/dt > 0
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     if (is_two_sided(a) || found.rates.f[a] > options.contact_tolerance[a] * found.rates.f_scale[a]) continue;
-    if (found.rates.f[a] > left_by_rounding(a) && found.rates.df[a] < 0 && !is_in(touching, a)) continue;
+    if (found.rates.f[a] > left_by_rounding(a) && found.rates.df[a] < 0 && !is_among(touching, a)) continue;
     zeros_of_f_[static_cast<std::size_t>(a)] = 1;
     if (found.rates.df[a] > options.contact_tolerance[a] * found.rates.df_scale[a]) opening.push_back(a);
   }
@@ -122,8 +118,7 @@ bool Motion::EventDriven::advance(double until) {
     if (status == MotionStatus::done && mark_ >= 0 && since_start_ - time_of_mark_ < shortest)
       stop("at t = " + number_text(state.t) +
            ": steps shorter than the digits of t do not get past; a derivative has no bound there, as that "
-           "of asin, acos and "
-           "sqrt at the end of their range; write the expressions without it");
+           "of asin, acos and sqrt at the end of their range; write the expressions without it");
     mark_ = record.steps, impacts_at_mark_ = record.impacts, time_of_mark_ = since_start_;
   }
   if (status != MotionStatus::done && next.t != state.t) forget_right_limits();

@@ -20,10 +20,6 @@ constexpr double half_the_digits = 0x1p-26;
 /// it.
 constexpr double jumped = 0x1p26;
 
-bool is_among(const std::vector<Index>& all, Index a) {
-  return std::find(all.begin(), all.end(), a) != all.end();
-}
-
 }  // namespace
 
 Motion::EventDriven::Switches Motion::EventDriven::switches_before_jump(

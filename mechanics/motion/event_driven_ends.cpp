@@ -13,12 +13,6 @@ constexpr double roundings_of_bounce = 64;
 /// of them shrink by a ratio so steady that the time left is known to a hundredth.
 constexpr long most_impacts_followed = 100'000;
 constexpr double known_remainder = 0.01;
-/// f of a closed contact is 0 up to so many roundings of what it is the sum of.
-constexpr double roundings_of_gap = 16;
-
-bool is_one_of(const std::vector<Index>& all, Index a) {
-  return std::find(all.begin(), all.end(), a) != all.end();
-}
 
 }  // namespace
 
@@ -29,7 +23,8 @@ bool Motion::EventDriven::may_stop_in_time(const std::vector<Index>& contacts) {
   const Vector second = -system.contact_rows(state, contacts).s;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Index a = contacts[k];
-    const double rate = expansion_.drift(a), gap = roundings_of_gap * epsilon * expansion_.position_scale(a);
+    const double rate = expansion_.drift(a),
+                 gap = roundings_of_closed * epsilon * expansion_.position_scale(a);
     if (rate < -expansion_.rounding_of_rate(a) && !(rate * rate <= 2 * second[static_cast<Index>(k)] * gap))
       return false;
   }
@@ -69,7 +64,7 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   if (time_stands_still()) {  // with all that struck at this instant
     for (Index a = 0; a < expansion_.constraints(); ++a) {
       const auto k = static_cast<std::size_t>(a);
-      if (!is_one_of(found, a) && !is_two_sided(a) && elapsed_[k] <= roundings_of_bounce * epsilon * clock())
+      if (!is_among(found, a) && !is_two_sided(a) && elapsed_[k] <= roundings_of_bounce * epsilon * clock())
         found.push_back(a);
     }
     return found;
@@ -78,7 +73,7 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   const double remaining = history_[static_cast<std::size_t>(found.front())].remaining();
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
-    if (is_one_of(found, a) || is_two_sided(a) || !history.shrinks()) continue;
+    if (is_among(found, a) || is_two_sided(a) || !history.shrinks()) continue;
     const double end = history.remaining() - elapsed_[static_cast<std::size_t>(a)];
     constexpr double alike = 0.05;
     if (std::abs(end - remaining) <= alike * remaining) found.push_back(a);

@@ -9,9 +9,6 @@
 namespace mechanics::inline motions {
 namespace {
 
-/// f of a closed contact is 0 up to so many roundings of what it is the sum of.
-constexpr double roundings_of_closed = 16;
-
 /// Of a speed, what it is the sum of is rounded so often between two impacts: by the impact, and by the arc.
 constexpr double roundings_of_speed = 2;
 
@@ -22,10 +19,6 @@ std::vector<Index> united(std::vector<Index> a, const std::vector<Index>& b) {
   std::sort(a.begin(), a.end());
   a.erase(std::unique(a.begin(), a.end()), a.end());
   return a;
-}
-
-bool contains(const std::vector<Index>& all, Index a) {
-  return std::find(all.begin(), all.end(), a) != all.end();
 }
 
 }  // namespace
@@ -68,14 +61,14 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   note_behind();
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   for (std::size_t k = 0; k < expansion_.switches(); ++k)  // those that stayed 0 may go on otherwise
-    if (expansion_.branch(k) == 0 && !contains(switches, static_cast<Index>(k)))
+    if (expansion_.branch(k) == 0 && !is_among(switches, static_cast<Index>(k)))
       switches.push_back(static_cast<Index>(k));
   tell_blur(zeros);
   if (closing.size() > 1) tell_order(zeros, closing);
   if (!closing.empty() && !lost.empty()) return stop_at_vanishing_gradient(lost.front());
   if (!closing.empty()) {  // with all contacts that are closed, those that open included
     for (Index a = 0; a < expansion_.constraints(); ++a)
-      if (!is_two_sided(a) && !contains(closing, a) &&
+      if (!is_two_sided(a) && !is_among(closing, a) &&
           std::abs(expansion_.f(a)) <= roundings_of_closed * epsilon * expansion_.position_scale(a))
         touching.push_back(a);
     collide(closing, united(std::move(held), touching), switches);
@@ -95,7 +88,7 @@ void Motion::EventDriven::release_event(const std::vector<Index>& held_before,
                                         const Vector& velocity_before) {
   std::vector<Index> released;
   for (const Index a : held_before)
-    if (!contains(persist_, a) && zeros_of_f_[static_cast<std::size_t>(a)] > 1) released.push_back(a);
+    if (!is_among(persist_, a) && zeros_of_f_[static_cast<std::size_t>(a)] > 1) released.push_back(a);
   if (!released.empty()) event(EventKind::release, released, velocity_before);
 }
 
@@ -104,7 +97,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   const Switches before_jump = switches_before_jump(switches);
   std::vector<Index> present = united(closing, touching);
   for (Index a = 0; a < expansion_.constraints(); ++a)
-    if (is_two_sided(a) && !contains(present, a)) present.push_back(a);
+    if (is_two_sided(a) && !is_among(present, a)) present.push_back(a);
   take_rounding_of_gradients_for_zero(present);
   striking_.resize(present.size());
   for (std::size_t k = 0; k < present.size(); ++k) {
@@ -112,7 +105,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open,
     // or close within the contact tolerance.
     const double rate = expansion_.rate(a);
-    const bool turns = contains(closing, a), is_free = !is_two_sided(a);
+    const bool turns = is_among(closing, a), is_free = !is_two_sided(a);
     const double told = record.steps == 0 ? std::abs(rate) : rate;
     const bool moves = turns || (is_free && told > expansion_.rounding_of_rate(a));
     ImpactContact& contact = striking_[k];
@@ -165,9 +158,9 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     // By Moreau's law f'(v+) = -e f'(v-) wherever P is not 0.
     const double rate_after = options.impact_law == ImpactLaw::moreau ? -e * rate_before : outcome.rate[at];
     record.ledger_energy += outcome.impulse[at] * (0.5 * (rate_before + rate_after) - expansion_.drift(a));
-    if (is_two_sided(a) && contains(closing, a)) hit.push_back(a);
+    if (is_two_sided(a) && is_among(closing, a)) hit.push_back(a);
     if (is_two_sided(a)) continue;
-    if (contains(persist_, a)) held.push_back(a);
+    if (is_among(persist_, a)) held.push_back(a);
     if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
     if (!(outcome.rate[at] > 0)) resting.push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
@@ -203,7 +196,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     const ImpactHistory last = history_[static_cast<std::size_t>(ending.front())];
     begin_arc(stopping, branches_after_jump(before_jump));
     const bool rest = status == MotionStatus::done && std::all_of(ending.begin(), ending.end(), [&](Index a) {
-                        return contains(persist_, a);
+                        return is_among(persist_, a);
                       });
     if (rest) {
       for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
@@ -254,7 +247,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   for (const Index a : answer->excluding)
     if (expansion_.is_singular(a)) return stop_at_vanishing_gradient(a);
   for (const Index a : without_gradient)
-    if (contains(answer->persist, a)) return stop_at_vanishing_gradient(a);
+    if (is_among(answer->persist, a)) return stop_at_vanishing_gradient(a);
   if (!answer->excluding.empty()) {
     status = MotionStatus::infeasible;
     excluding = answer->excluding;
