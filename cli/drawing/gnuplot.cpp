@@ -20,7 +20,6 @@ namespace {
 using convex::InvalidInput;
 
 constexpr int picture_width = 700;
-constexpr double inches_a_pixel = 1.0 / 72;
 
 /// What to do where gnuplot is not there.
 constexpr const char* gnuplot_advice =
@@ -51,29 +50,40 @@ class ScriptFile {
   std::string path_ = (std::filesystem::temp_directory_path() / "moreau-plot-XXXXXX").string();
 };
 
+/// A terminal by Cairo, with letters, lines and marks of the sizes that they have in an SVG: so the layout of
+/// a picture, which is counted in pixels of the SVG, holds in all. `letters`, `lines`, `marks`: measured, of
+/// gnuplot 5.4; a PNG has its points of letters at 96 to the inch.
+struct CairoTerminal {
+  const char* name;
+  double unit, letters, lines, marks;  ///< unit: of the size, per pixel
+};
+constexpr CairoTerminal png_terminal{"pngcairo", 2, 1.5, 2, 3},
+    pdf_terminal{"pdfcairo", 1.0 / 72, 0.75, 2, 1.5};
+constexpr double cairo_key_spacing = 1.25;
+
 /// `set terminal` and `set output` for a picture of that size. Throws InvalidInput for a name that is neither
 /// .svg, .png nor .pdf.
 std::string terminal_text(const std::string& file, int wide, int height) {
-  std::string size = std::to_string(wide) + "," + std::to_string(height);
   std::string plain = "\"";
   for (const char c : file) {
     if (c == '"' || c == '\\') plain += '\\';
     plain += c;
   }
   plain += '"';
-  if (ends_with(file, ".svg"))
-    return "set terminal svg enhanced size " + size +
-           " dynamic background \"#ffffff\" font \"Helvetica,11\"\nset output " + plain + "\n";
-  if (ends_with(file, ".png"))
-    return "set terminal pngcairo enhanced size " + std::to_string(2 * wide) + "," +
-           std::to_string(2 * height) +
-           " background \"#ffffff\" font \"Helvetica,11\" fontscale 2 linewidth 2 pointscale 2\nset output " +
-           plain + "\n";
-  if (ends_with(file, ".pdf"))
+  const std::string output = "set output " + plain + "\n";
+  const auto cairo = [&](const CairoTerminal& t) {
     return fmt::format(
-               "set terminal pdfcairo enhanced size {},{} background \"#ffffff\" font \"Helvetica,11\"\n",
-               wide * inches_a_pixel, height * inches_a_pixel) +
-           "set output " + plain + "\n";
+        "set terminal {} enhanced size {},{} background \"#ffffff\" font \"Helvetica,11\" fontscale {} "
+        "linewidth {} pointscale {}\nset key spacing {}\n",
+        t.name, t.unit * wide, t.unit * height, t.letters, t.lines, t.marks, cairo_key_spacing);
+  };
+  if (ends_with(file, ".svg"))
+    return fmt::format(
+               "set terminal svg enhanced size {},{} dynamic background \"#ffffff\" font \"Helvetica,11\"\n",
+               wide, height) +
+           output;
+  if (ends_with(file, ".png")) return cairo(png_terminal) + output;
+  if (ends_with(file, ".pdf")) return cairo(pdf_terminal) + output;
   throw InvalidInput(file + ": a picture is named .svg, .png or .pdf; give such a name");
 }
 
