@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "cli/drawing/labelled_page.hpp"
+#include "cli/drawing/contact_sets.hpp"
+#include "cli/drawing/label_placement.hpp"
+#include "cli/drawing/stacked_diagrams.hpp"
+#include "cli/report/text_table.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "mechanics/gauss_solution.hpp"
 
@@ -16,10 +20,9 @@ namespace {
 using convex::atlas::ParameterPolygon;
 using convex::atlas::PlaneRegion;
 
-/// Pale, apart in grey too (Okabe and Ito 2008, lightened).
-constexpr std::array region_colours{"#ffffff", "#fbd9a5", "#bfe0f5", "#a9dcc8", "#f7f2ae",
-                                    "#a9c7dd", "#eec1a3", "#e6c6d8", "#c8c8c8", "#8fb8a8"};
-constexpr int map_height = 520, map_width = 840;
+/// Pixels: the map between the numbers of its axes and the key.
+constexpr double map_left = 109, map_right = 521, map_frame = 416, map_above = 52, map_below = 62,
+                 map_key = 537;
 /// Regions of a smaller part of the map have no arrows; the longest arrow is such a part of its width.
 constexpr double least_part = 0.02, longest_arrow = 0.12;
 
@@ -66,38 +69,74 @@ ArrowPair arrows_at(const AtlasMap& map, const Scene& scene, const Eigen::Vector
   return {p, {free[x], free[y]}, {truth[x], truth[y]}};
 }
 
-std::string joined_names(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-/// The contacts that persist; of most of them those that do not. Beyond the room of the key, how many.
-std::string region_name(const SolvedAtlas& solved, const PlaneRegion& region) {
-  constexpr std::size_t longest = 46;
-  const std::vector<std::string> held = solved.names(solved.atlas.cells[region.cell]);
-  if (held.empty()) return "no contact";
-  const std::string all = joined_names(held);
-  if (all.size() <= longest) return all;
-  std::vector<std::string> others;
-  for (const std::string& name : solved.contacts)
-    if (std::find(held.begin(), held.end(), name) == held.end()) others.push_back(name);
-  if (others.empty()) return fmt::format("all {} contacts", held.size());
-  const std::string rest = "all but " + joined_names(others);
-  if (rest.size() <= longest) return rest;
-  return fmt::format("{}, … ({} of {})", all.substr(0, all.rfind(", ", longest - 14)), held.size(),
-                     solved.contacts.size());
-}
-
 /// Two regions that would read alike are told apart by their number in the list of cells.
 std::vector<std::string> region_names(const SolvedAtlas& solved, const std::vector<PlaneRegion>& regions) {
-  std::vector<std::string> names;
-  for (const PlaneRegion& region : regions) names.push_back(region_name(solved, region));
-  std::vector<std::string> told = names;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (std::count(names.begin(), names.end(), names[k]) > 1)
-      told[k] += fmt::format(", cell {}", regions[k].cell + 1);
-  return told;
+  std::vector<std::string> names, numbers;
+  for (const PlaneRegion& region : regions) {
+    names.push_back(contact_set_name(solved.names(solved.atlas.cells[region.cell]), solved.contacts));
+    numbers.push_back(fmt::format("cell {}", region.cell + 1));
+  }
+  return told_apart(names, numbers);
+}
+
+/// Pairs of arrows as they are drawn: each of the two components to the scale of its largest.
+class ArrowsOnMap {
+ public:
+  ArrowsOnMap(const std::vector<ArrowPair>& pairs, const Eigen::Vector2d& low, const Eigen::Vector2d& high)
+      : pairs_(pairs), size_(high - low), low_(low), high_(high) {
+    for (const ArrowPair& pair : pairs)
+      longest_ = longest_.cwiseMax(pair.free.cwiseAbs()).cwiseMax(pair.truth.cwiseAbs());
+    // An arrow at the border goes beyond it, and the axes with it: each begins where its force is.
+    for (const ArrowPair& pair : pairs)
+      for (const Eigen::Vector2d& vector : {pair.free, pair.truth}) {
+        const Eigen::Vector2d tip = pair.at + drawn(vector);
+        const Eigen::Vector2d room = 0.02 * size_;
+        if ((tip - low).minCoeff() < 0) low_ = low_.cwiseMin(tip - room);
+        if ((high - tip).minCoeff() < 0) high_ = high_.cwiseMax(tip + room);
+      }
+  }
+  /// The window that has them all.
+  const Eigen::Vector2d& low() const { return low_; }
+  const Eigen::Vector2d& high() const { return high_; }
+  const Eigen::Vector2d& longest() const { return longest_; }
+  /// The true acceleration is thin on the free one, so that both are seen where they are one.
+  std::string script() const {
+    std::string text;
+    for (const ArrowPair& pair : pairs_) {
+      text += arrow(pair.at, pair.free, "lc rgb \"#d55e00\" lw 4 size screen 0.016,28");
+      text += arrow(pair.at, pair.truth, "lc rgb \"#0072b2\" lw 1.6 size screen 0.012,16 filled");
+    }
+    return text;
+  }
+
+ private:
+  Eigen::Vector2d drawn(const Eigen::Vector2d& vector) const {
+    constexpr double none = std::numeric_limits<double>::min();  // all are 0 there
+    return longest_arrow * vector.cwiseQuotient(longest_.cwiseMax(none)).cwiseProduct(size_);
+  }
+  std::string arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& vector, const char* style) const {
+    const Eigen::Vector2d step = drawn(vector);
+    constexpr double seen = 1e-3;
+    if (step.cwiseQuotient(size_).norm() < seen) return "";
+    return fmt::format("set arrow from {},{} rto {},{} front {}\n", from.x(), from.y(), step.x(), step.y(),
+                       style);
+  }
+
+  const std::vector<ArrowPair>& pairs_;
+  Eigen::Vector2d size_, low_, high_, longest_ = Eigen::Vector2d::Zero();
+};
+
+/// Does the region have the point, its border counted in?
+bool has_point(const ParameterPolygon& polygon, const Eigen::Vector2d& p) {
+  const std::size_t count = polygon.corners.size();
+  double least = 0, most = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Vector2d a = corner_at(polygon, k) - p, b = corner_at(polygon, (k + 1) % count) - p;
+    const double turn = a.x() * b.y() - a.y() * b.x();
+    least = std::min(least, turn);
+    most = std::max(most, turn);
+  }
+  return least >= 0 || most <= 0;
 }
 
 }  // namespace
@@ -106,84 +145,81 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
   const AtlasMap& map = *solved.map;
   std::string data, plots;
   const auto plot = [&](const std::string& text) { plots += (plots.empty() ? "plot " : ", \\\n  ") + text; };
-  bool hatched = false;
+  const auto bound = [](const convex::Fraction& x) { return convex::nearest_double(x); };
+  const bool shows_file = sign(map.over[0].low) <= 0 && sign(map.over[0].high) >= 0 &&
+                          sign(map.over[1].low) <= 0 && sign(map.over[1].high) >= 0;
+  bool hatched = false, file_has_region = false;
   std::vector<ArrowPair> pairs;
+  std::vector<std::string> key{"the force of the file", "free acceleration A⁻¹z", "true acceleration"};
   const std::vector<std::string> titles = region_names(solved, map.regions);
   for (std::size_t k = 0; k < map.regions.size(); ++k) {
     const PlaneRegion& region = map.regions[k];
     const std::string name = fmt::format("region{}", k), right = fmt::format("right{}", k);
-    const char* colour = region_colours[k % region_colours.size()];
     data += block(name, region.polygon);
-    plot(fmt::format(
-        "${} with filledcurves closed fs solid 1 border lc rgb \"#888888\" fc rgb \"{}\" title {}", name,
-        colour, quoted(titles[k])));
+    plot(fmt::format("${} with filledcurves closed {} title {}", name,
+                     set_fill(k, "border lc rgb \"#888888\""), quoted(titles[k])));
+    key.push_back(titles[k]);
     if (region.right && region.right->area < region.polygon.area) {
       hatched = true;
       plot(fmt::format(
           "${} with filledcurves closed fs transparent pattern 4 noborder fc rgb \"#777777\" notitle", name));
       if (sign(region.right->area) > 0) {
         data += block(right, *region.right);
-        plot(fmt::format("${} with filledcurves closed fs solid 1 noborder fc rgb \"{}\" notitle", right,
-                         colour));
+        plot(fmt::format("${} with filledcurves closed {} notitle", right, set_fill(k, "noborder")));
       }
     }
     plot(fmt::format("${} with lines lc rgb \"#555555\" lw 0.8 notitle", name));
-    if (convex::nearest_double(region.polygon.area) >= least_part * map.area())
+    // The force of the file has the arrows of its region.
+    if (shows_file && !file_has_region && has_point(region.polygon, {0, 0}))
+      file_has_region = true;
+    else if (convex::nearest_double(region.polygon.area) >= least_part * map.area())
       pairs.push_back(arrows_at(map, scene, centre(region.polygon)));
   }
-  const auto bound = [](const convex::Fraction& x) { return convex::nearest_double(x); };
-  const bool shows_file = sign(map.over[0].low) <= 0 && sign(map.over[0].high) >= 0 &&
-                          sign(map.over[1].low) <= 0 && sign(map.over[1].high) >= 0;
   if (shows_file) {
     pairs.push_back(arrows_at(map, scene, {0, 0}));
     plot(
         "\"+\" using (0):(0) every ::0::0 with points pt 7 ps 0.7 lc rgb \"#000000\" title \"the force of "
         "the file\"");
   }
-  Eigen::Vector2d longest = Eigen::Vector2d::Zero();
-  for (const ArrowPair& pair : pairs)
-    longest = longest.cwiseMax(pair.free.cwiseAbs()).cwiseMax(pair.truth.cwiseAbs());
-  for (double& length : longest) length = length > 0 ? length : 1;
-  std::string arrows;
   const Eigen::Vector2d low(bound(map.over[0].low), bound(map.over[1].low)),
       high(bound(map.over[0].high), bound(map.over[1].high));
-  const auto arrow = [&](const ArrowPair& pair, const Eigen::Vector2d& vector, const char* style) {
-    const Eigen::Vector2d drawn = longest_arrow * vector.cwiseQuotient(longest);
-    constexpr double seen = 1e-3;
-    if (drawn.norm() < seen) return;
-    // Where the tip would leave the frame, it stands at the point instead.
-    const Eigen::Vector2d tip = (pair.at - low).cwiseQuotient(high - low) + drawn;
-    const bool is_inside = tip.minCoeff() > 0 && tip.maxCoeff() < 1;
-    const Eigen::Vector2d from =
-        is_inside ? pair.at : Eigen::Vector2d(pair.at - drawn.cwiseProduct(high - low));
-    arrows += fmt::format("set arrow from {},{} rto graph {},{} front {}\n", from.x(), from.y(), drawn.x(),
-                          drawn.y(), style);
-  };
-  for (const ArrowPair& pair : pairs) {
-    arrow(pair, pair.free, "lc rgb \"#d55e00\" lw 1.6 size screen 0.012,20");
-    arrow(pair, pair.truth, "lc rgb \"#0072b2\" lw 2.4 size screen 0.012,20");
+  const ArrowsOnMap arrows(pairs, low, high);
+  const auto coordinate = [&](std::size_t k) { return solved.coordinates[map.over[k].coordinate]; };
+  plot("NaN with lines lc rgb \"#d55e00\" lw 4 title \"free acceleration A⁻¹z\"");
+  plot("NaN with lines lc rgb \"#0072b2\" lw 1.6 title \"true acceleration\"");
+  if (hatched) {
+    key.emplace_back("dropping negatives is wrong");
+    plot(fmt::format("NaN with boxes fs pattern 4 border lc rgb \"#777777\" fc rgb \"#777777\" title \"{}\"",
+                     key.back()));
   }
-  plot("NaN with lines lc rgb \"#d55e00\" lw 1.6 title \"free acceleration A⁻¹z\"");
-  plot("NaN with lines lc rgb \"#0072b2\" lw 2.4 title \"true acceleration\"");
-  if (hatched)
-    plot(
-        "NaN with boxes fs pattern 4 border lc rgb \"#777777\" fc rgb \"#777777\" title "
-        "\"dropping negatives is wrong\"");
+  const double frame = std::max(map_frame, key_height(key.size()));
   Drawing made;
-  made.height = map_height;
-  made.width = map_width;
+  made.height = static_cast<int>(map_above + frame + map_below);
+  made.width = width_with_key(map_key, key);
+  // Centred on the map, it must not leave the page on the left.
+  const double room = map_left + map_right - 12;
+  std::string heading = heading_line(solved.title.empty() ? solved.file : solved.title, room);
+  if (!pairs.empty())
+    heading +=
+        "\n" + heading_line(fmt::format("arrows: accelerations, the longest components {}'' = {} and {}'' "
+                                        "= {} drawn alike",
+                                        coordinate(0), number_text(arrows.longest().x()), coordinate(1),
+                                        number_text(arrows.longest().y())),
+                            room);
   made.script =
-      data + arrows +
+      data + arrows.script() +
       fmt::format(
-          "set lmargin at screen 0.13\nset rmargin at screen 0.62\nset tmargin at screen 0.93\n"
-          "set bmargin at screen 0.12\nset xrange [{}:{}]\nset yrange [{}:{}]\nset title {} font \",11\"\n"
+          "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\n"
+          "set bmargin at screen {}\nset xrange [{}:{}]\nset yrange [{}:{}]\nset title {} font \",11\" "
+          "offset "
+          "0,-0.4\n"
           "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
-          "set tics nomirror out font \",9\"\nset key at screen 0.64,0.94 left top Left reverse font \",9\" "
-          "samplen "
-          "1.5\n",
-          bound(map.over[0].low), bound(map.over[0].high), bound(map.over[1].low), bound(map.over[1].high),
-          quoted(heading_line(solved.title.empty() ? solved.file : solved.title)),
-          quoted(map.over[0].key + ", added"), quoted(map.over[1].key + ", added")) +
+          "set tics nomirror out font \",9\"\nset key at screen {}, graph 1 left top Left reverse font "
+          "\",9\" "
+          "samplen 1.5\n",
+          map_left / made.width, map_right / made.width, 1 - map_above / made.height, map_below / made.height,
+          arrows.low().x(), arrows.high().x(), arrows.low().y(), arrows.high().y(), quoted(heading),
+          quoted(map.over[0].key + ", added"), quoted(map.over[1].key + ", added"), map_key / made.width) +
       plots + "\n";
   return made;
 }

@@ -7,23 +7,42 @@
 #include <cmath>
 #include <map>
 
+#include "cli/drawing/stacked_diagrams.hpp"
+
 namespace cli::inline drawings {
 namespace {
 
-constexpr std::array curve_colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222"};
-constexpr int branch_panel_height = 230;
+constexpr std::size_t most_curves_of_branch = 6;
+/// Pixels; the keys are beside.
+constexpr double branch_left = 91, branch_right = 546;
 
 std::string largest_multiplier(const mechanics::Orbit& orbit) {
   if (!orbit.multipliers || orbit.multipliers->empty()) return "NaN";
   return fmt::format("{}", std::abs(orbit.multipliers->front()));
 }
 
-/// Columns: value, q, v, largest multiplier; the velocity may be left out, which interrupts its curve.
-std::string columns(const BranchPoint& point, bool has_velocity = true) {
+/// Columns: value, q, v, largest multiplier; what is left out interrupts its curve.
+std::string columns(const BranchPoint& point, bool has_velocity = true, bool has_multiplier = true) {
   std::string text = fmt::format("{}", point.value);
   for (const double q : point.orbit.start.q) text += fmt::format(" {}", q);
   for (const double v : point.orbit.start.v) text += has_velocity ? fmt::format(" {}", v) : " NaN";
-  return text + " " + largest_multiplier(point.orbit) + "\n";
+  return text + " " + (has_multiplier ? largest_multiplier(point.orbit) : "NaN") + "\n";
+}
+
+/// Between a graze and orbits with the impact that begins there: their multipliers grow beyond all bounds
+/// towards it, those of the graze are of the orbits without it.
+bool gains_or_loses_impacts(const BranchPoint& a, const BranchPoint& b) {
+  return a.orbit.impacts.size() != b.orbit.impacts.size();
+}
+
+/// Is the piece between two orbits stable? At an event a multiplier is on the unit circle but for rounding,
+/// or the orbit is one without the impacts of the piece: the one without an event tells. Between two events
+/// a graze tells of its own side; on the other, with the impact, multipliers beyond all bounds do.
+bool is_stable_between(const BranchPoint& a, const BranchPoint& b) {
+  if (b.event.empty()) return b.orbit.is_stable;
+  if (a.event.empty()) return a.orbit.is_stable;
+  if (gains_or_loses_impacts(a, b)) return false;
+  return (b.event == "grazing" ? b : a).orbit.is_stable;
 }
 
 /// Does an impact pass the instant of the start between two orbits, so that their velocities there lie on
@@ -45,17 +64,20 @@ bool passes_an_impact(const mechanics::Orbit& a, const mechanics::Orbit& b) {
   return moved(a, b, 1) < kept || moved(b, a, 1) < kept;
 }
 
-/// The pieces of one stability. At an event a multiplier is on the unit circle but for rounding: between two
-/// orbits the one without an event tells.
+/// The pieces of one stability; an orbit alone is one.
 std::string pieces(const std::vector<BranchPoint>& points, bool stable) {
+  if (points.size() == 1) return points[0].orbit.is_stable == stable ? columns(points[0]) : "";
   std::string text;
   bool is_inside = false;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    const BranchPoint& tells = points[k + 1].event.empty() ? points[k + 1] : points[k];
-    const bool belongs = tells.orbit.is_stable == stable;
-    if (belongs && !is_inside) text += (text.empty() ? "" : "\n") + columns(points[k]);
-    if (belongs && passes_an_impact(points[k].orbit, points[k + 1].orbit)) text += columns(points[k], false);
-    if (belongs) text += columns(points[k + 1]);
+    const BranchPoint &from = points[k], &to = points[k + 1];
+    const bool belongs = is_stable_between(from, to) == stable;
+    if (belongs && !is_inside) text += (text.empty() ? "" : "\n") + columns(from);
+    const bool velocity_jumps = passes_an_impact(from.orbit, to.orbit),
+               multiplier_jumps = gains_or_loses_impacts(from, to);
+    if (belongs && (velocity_jumps || multiplier_jumps))
+      text += columns(from, !velocity_jumps, !multiplier_jumps);
+    if (belongs) text += columns(to);
     is_inside = belongs;
   }
   return text;
@@ -64,27 +86,46 @@ std::string pieces(const std::vector<BranchPoint>& points, bool stable) {
 struct BranchPanel {
   std::string label;
   std::vector<std::string> names;
-  std::size_t first_column;
+  std::size_t first_column, left_out = 0;
 };
 
-/// The curves of one panel: full where stable, dotted where not, and a mark at each event.
+/// The words of the key, in the order of the curves.
+std::vector<std::string> key_of(const BranchPanel& panel, bool has_stable, bool has_unstable,
+                                const std::map<std::string, int>& events) {
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < panel.names.size(); ++k) {
+    if (has_stable) words.push_back(panel.names[k]);
+    if (has_unstable) words.push_back(panel.names[k] + ", unstable");
+    for (const auto& [event, marker] : events)
+      if (k == 0) words.push_back(event);
+  }
+  return key_of_curves(std::move(words), panel.left_out);
+}
+
+/// The curves of one panel: full where stable, dotted where not, of several told apart by open marks too,
+/// and a mark at each event.
 std::string panel_curves(const BranchPanel& panel, bool has_stable, bool has_unstable,
-                         const std::map<std::string, int>& events) {
+                         const std::map<std::string, int>& events, std::size_t points) {
   std::string text;
   const auto add = [&](const std::string& curve) { text += (text.empty() ? "plot " : ", \\\n  ") + curve; };
+  constexpr std::size_t marks_a_curve = 10;
   for (std::size_t k = 0; k < panel.names.size(); ++k) {
-    const char* colour = curve_colours[k % curve_colours.size()];
-    const std::string name = quoted(panel.names[k]), column = std::to_string(panel.first_column + k);
+    const std::string column = std::to_string(panel.first_column + k),
+                      marked = panel.names.size() > 1 || points == 1
+                                   ? fmt::format("linespoints pt {} ps 0.7 pi {}", 4 + 2 * k,
+                                                 1 + points / marks_a_curve)
+                                   : "lines";
     if (has_stable)
-      add(fmt::format("$stable using 1:{} with lines lc rgb \"{}\" lw 2 title {}", column, colour, name));
+      add(fmt::format("$stable using 1:{} with {} lc rgb \"{}\" lw 2 title {}", column, marked,
+                      curve_colour(k), quoted(panel.names[k])));
     if (has_unstable)
-      add(fmt::format("$unstable using 1:{} with lines lc rgb \"{}\" lw 1.6 dt 2 title {}", column, colour,
-                      quoted(panel.names[k] + ", unstable")));
+      add(fmt::format("$unstable using 1:{} with {} lc rgb \"{}\" lw 1.6 dt 2 title {}", column, marked,
+                      curve_colour(k), quoted(panel.names[k] + ", unstable")));
     for (const auto& [event, marker] : events)
-      add(fmt::format("${} using 1:{} with points pt {} ps 1.1 lw 1.5 lc rgb \"#d55e00\" {}", event, column,
+      add(fmt::format("${} using 1:{} with points pt {} ps 1.1 lw 1.5 lc rgb \"#222222\" {}", event, column,
                       marker, k == 0 ? "title " + quoted(event) : "notitle"));
   }
-  return text + "\n";
+  return text + left_out_in_key(panel.left_out) + "\n";
 }
 
 }  // namespace
@@ -105,19 +146,21 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
       if (point.event == event) made.script += columns(point);
     made.script += "EOD\n";
   }
-  const std::size_t n = coordinates.size(), drawn = std::min(n, curve_colours.size());
-  BranchPanel q{"q", {}, 2}, v{"q'", {}, 2 + n}, multiplier{"|multiplier|", {"largest"}, 2 + 2 * n};
+  const std::size_t n = coordinates.size(), drawn = std::min(n, most_curves_of_branch);
+  BranchPanel q{"q", {}, 2, n - drawn}, v{"q'", {}, 2 + n, n - drawn},
+      multiplier{"|multiplier|", {"largest"}, 2 + 2 * n};
   for (std::size_t i = 0; i < drawn; ++i) {
     q.names.push_back(coordinates[i]);
     v.names.push_back(coordinates[i] + "'");
   }
   const std::array panels{q, v, multiplier};
-  made.height = branch_panel_height * static_cast<int>(panels.size()) + 40;
-  made.script += fmt::format(
-      "set multiplot layout 3,1 title {} font \",11\" margins 0.13,0.78,0.07,0.94 spacing 0.03\n"
-      "set grid lc rgb \"#dddddd\" lw 0.5 dt 1\nset border 3 lc rgb \"#666666\" lw 0.7\n"
-      "set tics nomirror font \",9\"\nset key outside right top font \",9\" samplen 1.5\n",
-      quoted(title));
+  StackedDiagrams stacked{branch_left, branch_right, {}};
+  for (const BranchPanel& panel : panels)
+    stacked.keys.push_back(key_of(panel, !stable.empty(), !unstable.empty(), events));
+  const Drawing page = stacked.page(title);
+  made.width = page.width;
+  made.height = page.height;
+  made.script += page.script + "set grid lc rgb \"#dddddd\" lw 0.5 dt 1\n";
   const auto [low, high] = std::minmax_element(
       points.begin(), points.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   const double room = 0.02 * (high->value - low->value);
@@ -131,7 +174,7 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
                                  "\"#888888\" lw 0.8 back\n",
                                  quoted(parameter))
                            : "unset xlabel\nset format x \"\"\n";
-    made.script += panel_curves(panels[k], !stable.empty(), !unstable.empty(), events);
+    made.script += panel_curves(panels[k], !stable.empty(), !unstable.empty(), events, points.size());
   }
   made.script += "unset multiplot\n";
   return made;

@@ -167,7 +167,8 @@ void draw_rows(LabelledPage& page, const SolvedScene& solved, const PlaneSection
 }
 
 std::string heading_of(const SolvedScene& solved, const PlaneSection& section, bool ellipses,
-                       const std::vector<std::string>& elsewhere, bool is_beside) {
+                       const std::vector<std::string>& elsewhere, PageArea area) {
+  const bool is_beside = area.page_width > page_size;
   const Scene& scene = solved.scene;
   std::string below, missing;
   const auto say = [&](const std::string& words) { below += (below.empty() ? "" : "; ") + words; };
@@ -183,9 +184,10 @@ std::string heading_of(const SolvedScene& solved, const PlaneSection& section, b
   if (ellipses) say("ellipses: circles of the kinetic metric");
   // Beside the mechanism, which has its name, there is room for two lines.
   if (is_beside && below.empty()) below = "accelerations";
-  const std::string name = is_beside ? "" : heading_line(scene.title.empty() ? scene.file : scene.title);
-  return name + (below.empty() || is_beside ? "" : "\n") + heading_line(below) +
-         (missing.empty() ? "" : "\n" + heading_line(missing));
+  const std::string name =
+      is_beside ? "" : heading_line(scene.title.empty() ? scene.file : scene.title, area.title_room());
+  return name + (below.empty() || is_beside ? "" : "\n") + heading_line(below, area.title_room()) +
+         (missing.empty() ? "" : "\n" + heading_line(missing, area.title_room()));
 }
 
 }  // namespace
@@ -262,7 +264,7 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
   }
   return {page.script("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])],
                       "acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[1])],
-                      heading_of(solved, section, moved, elsewhere, area.left > 0)),
+                      heading_of(solved, section, moved, elsewhere, area)),
           page_size, area.page_width};
 }
 

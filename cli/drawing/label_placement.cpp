@@ -54,10 +54,20 @@ double text_width(const std::string& text, double font_size) {
 }
 
 int width_with_key(double right, const std::vector<std::string>& words) {
-  constexpr double usual = 700, letters = 9.5, sample = 56;
+  constexpr double usual = 700, letters = 9.5, sample = 66;
   double widest = 0;
   for (const std::string& text : words) widest = std::max(widest, text_width(text, letters));
   return static_cast<int>(std::max(usual, right + sample + widest));
+}
+
+std::string heading_line(std::string line, double room) {
+  constexpr double letters = 11;
+  if (text_width(line, letters) <= room) return line;
+  while (!line.empty() && text_width(line + "…", letters) > room) {
+    while ((static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
+    line.pop_back();
+  }
+  return line + "…";
 }
 
 void LabelPlacement::avoid_point(const PagePoint& p, double radius) {

@@ -62,6 +62,9 @@ class LabelPlacement {
 /// The width in pixels that a text has at most in a font of that size (pixels an em), sans serif.
 double text_width(const std::string& text, double font_size);
 
+/// A line of a title, cut to so many pixels.
+std::string heading_line(std::string line, double room);
+
 /// The width of a page with a key outside on the right, of these words in small letters, whose diagrams end
 /// at `right`, in pixels.
 int width_with_key(double right, const std::vector<std::string>& words);

@@ -17,6 +17,9 @@ constexpr double frame_left = 92, frame_size = 580, frame_bottom = 56, label_siz
 /// Points of letters, and of the numbers at the axes.
 constexpr double label_points = 11, axis_points = 9, title_points = 11;
 
+/// As far as both edges of the picture are from the middle of the frame.
+constexpr double line_of_title = 2 * (page_size - frame_left - frame_size / 2) - 12;
+
 std::string number_rows(const Polygon& points) {
   std::string text;
   for (const Point& p : points) text += fmt::format("{} {}\n", p.x(), p.y());
@@ -24,6 +27,8 @@ std::string number_rows(const Polygon& points) {
 }
 
 }  // namespace
+
+double PageArea::title_room() const { return line_of_title / std::sqrt(letters()); }
 
 PageWindow::PageWindow(const Polygon& points, double otherwise) : low(points.front()), high(points.front()) {
   for (const Point& p : points) {
@@ -107,15 +112,6 @@ std::string LabelledPage::script(const std::string& x, const std::string& y, con
              label_points * area_.letters(), quoted(title), title_points * std::sqrt(area_.letters()),
              axis_points * area_.letters()) +
          blocks_ + "plot " + plots_ + "\n";
-}
-
-std::string heading_line(std::string line) {
-  constexpr std::size_t longest = 100;
-  if (line.size() <= longest) return line;
-  line.resize(longest);
-  while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
-  line.pop_back();
-  return line + "…";
 }
 
 }  // namespace cli::inline drawings

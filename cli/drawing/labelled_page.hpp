@@ -18,6 +18,8 @@ struct PageArea {
 
   /// Letters beside another picture are larger, for the page is shown in the same width.
   double letters() const { return page_width > page_size ? 1.4 : 1; }
+  /// For a line of the title over the frame, whose letters grow less.
+  double title_room() const;
 };
 
 /// The window: all points with room around; where all are one, `otherwise` is its size.
@@ -58,8 +60,5 @@ class LabelledPage {
   std::string blocks_, plots_;
   int count_ = 0;
 };
-
-/// A line of a title, cut to what the page holds.
-std::string heading_line(std::string line);
 
 }  // namespace cli::inline drawings

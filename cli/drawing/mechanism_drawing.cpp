@@ -96,14 +96,14 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
   }
   for (const Index a : scene.contacts)
     if (named.count(a) == 0) unnamed.push_back(scene.constraints[static_cast<std::size_t>(a)]);
-  std::string title = heading_line(scene.title.empty() ? scene.file : scene.title);
+  std::string title = heading_line(scene.title.empty() ? scene.file : scene.title, area.title_room());
   // In one line: a third has no room above the frame.
   std::string below;
   if (!arrows.empty())
     below = "arrows: forces, as far as they work there, the longest " + number_text(longest) +
             "; numbers: lambda";
   if (!unnamed.empty()) below += (below.empty() ? "" : "; ") + ("without an arrow: " + listed(unnamed));
-  if (!below.empty()) title += "\n" + heading_line(below);
+  if (!below.empty()) title += "\n" + heading_line(below, area.title_room());
   return {page.script("across, in the units of the file", "up, in the units of the file", title), page_size,
           area.page_width};
 }

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <map>
 
-#include "cli/drawing/label_placement.hpp"
+#include "cli/drawing/stacked_diagrams.hpp"
 #include "cli/motion_files.hpp"
 #include "mechanics/motion/taylor_series.hpp"
 
@@ -22,10 +22,6 @@ constexpr Index most_curves = 8;
 constexpr long points = 1201;
 /// Events are told apart no closer than so many to the picture's length.
 constexpr long mark_places = 500;
-constexpr int panel_height = 190;
-
-constexpr std::array line_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                  "#e69f00", "#56b4e9", "#882255", "#222222"};
 
 /// Events are told apart by their dashes, not by the colours of the curves.
 std::string style(mechanics::EventKind kind) {
@@ -60,6 +56,7 @@ struct Panel {
   std::string label;
   std::vector<std::string> names;
   Index first_column;
+  std::size_t left_out;  ///< as many are not drawn
 };
 
 /// Lengths and angles may stand on one axis, whose units the file alone knows.
@@ -81,12 +78,11 @@ std::string panel_script(const Panel& panel, bool is_last, bool from_zero, const
   text += "plot ";
   for (std::size_t k = 0; k < panel.names.size(); ++k) {
     const Index column = panel.first_column + static_cast<Index>(k);
-    text +=
-        fmt::format("{}$points using 1:{} with lines lc rgb \"{}\" lw 1.4 title {}", k > 0 ? ", \\\n  " : "",
-                    from_zero ? fmt::format("(${0}<0?0:${0})", column) : std::to_string(column),
-                    line_colours[k % line_colours.size()], quoted(panel.names[k]));
+    text += fmt::format("{}$points using 1:{} with lines {} lw 1.4 title {}", k > 0 ? ", \\\n  " : "",
+                        from_zero ? fmt::format("(${0}<0?0:${0})", column) : std::to_string(column),
+                        curve_style(k), quoted(panel.names[k]));
   }
-  return text + key_of_events + "\n";
+  return text + left_out_in_key(panel.left_out) + key_of_events + "\n";
 }
 
 /// What is constant but for rounding is a line, and not its noise; f and lambda, which are not below 0, begin
@@ -157,32 +153,37 @@ void MotionDrawing::finish(const mechanics::Motion& motion) {
 
 Drawing MotionDrawing::drawing(const std::string& title) const {
   const std::vector<std::string> constraints = constraint_names(system_);
-  std::vector<Panel> panels{
-      {"q", {system_.coordinates().begin(), system_.coordinates().begin() + coordinates_}, 2}};
+  const auto left_out = [](std::size_t all, Index drawn) { return all - static_cast<std::size_t>(drawn); };
+  const std::vector<std::string>& coordinates = system_.coordinates();
+  std::vector<Panel> panels{{"q",
+                             {coordinates.begin(), coordinates.begin() + coordinates_},
+                             2,
+                             left_out(coordinates.size(), coordinates_)}};
   if (constraints_ > 0) {
     const std::vector<std::string> drawn(constraints.begin(), constraints.begin() + constraints_);
-    panels.push_back({"f", drawn, 2 + coordinates_});
-    panels.push_back({"lambda", drawn, 2 + coordinates_ + constraints_});
+    const std::size_t more = left_out(constraints.size(), constraints_);
+    panels.push_back({"f", drawn, 2 + coordinates_, more});
+    panels.push_back({"lambda", drawn, 2 + coordinates_ + constraints_, more});
   }
-  panels.push_back({"energy", {"T + V"}, 2 + coordinates_ + 2 * constraints_});
-  std::vector<std::string> words;
-  for (const Panel& panel : panels) words.insert(words.end(), panel.names.begin(), panel.names.end());
-  Drawing made;
-  made.width = width_with_key(motion_right, words);
-  made.height = panel_height * static_cast<int>(panels.size()) + 40;
-  made.script = "$points << EOD\n" + points_ + "EOD\n";
-  made.script += fmt::format(
-      "set multiplot layout {},1 title {} font \",11\" margins {},{},0.07,0.94 spacing 0.03\n"
-      "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.5 dt 1\nset border 3 lc rgb \"#666666\" lw 0.7\n"
-      "set tics nomirror font \",9\"\nset key outside right top font \",9\" samplen 1.5\n",
-      panels.size(), quoted(title), motion_left / made.width, motion_right / made.width, begin_, end_);
+  panels.push_back({"energy", {"T + V"}, 2 + coordinates_ + 2 * constraints_, 0});
   std::map<mechanics::EventKind, std::string> kinds;
+  std::string marks;
   for (const auto& [kind, place] : events_) {
     const double t = begin_ + (end_ - begin_) * static_cast<double>(place) / static_cast<double>(mark_places);
-    made.script +=
-        fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} back\n", t, style(kind));
+    marks += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} back\n", t, style(kind));
     kinds[kind] = fmt::format(", \\\n  NaN with lines {} title {}", style(kind), quoted(name(kind)));
   }
+  StackedDiagrams stacked{motion_left, motion_right, {}};
+  for (const Panel& panel : panels) {
+    std::vector<std::string> key = key_of_curves(panel.names, panel.left_out);
+    for (const auto& [kind, line] : kinds)
+      if (stacked.keys.empty()) key.emplace_back(name(kind));
+    stacked.keys.push_back(key);
+  }
+  Drawing made = stacked.page(title);
+  made.script = "$points << EOD\n" + points_ + "EOD\n" + made.script +
+                fmt::format("set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.5 dt 1\n", begin_, end_) +
+                marks;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const std::string& label = panels[k].label;
     const auto& range = label == "energy" ? energies_ : label == "f" ? gaps_ : forces_;

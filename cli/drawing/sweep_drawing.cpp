@@ -5,79 +5,81 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
+#include "cli/drawing/contact_sets.hpp"
 #include "cli/drawing/label_placement.hpp"
+#include "cli/drawing/stacked_diagrams.hpp"
 
 namespace cli::inline drawings {
 namespace {
 
-/// Sets of contacts: pale, apart in grey too (Okabe and Ito 2008, lightened).
-constexpr std::array band_colours{"#ffffff", "#fbd9a5", "#bfe0f5", "#a9dcc8", "#f7f2ae",
-                                  "#a9c7dd", "#eec1a3", "#e6c6d8", "#c8c8c8", "#8fb8a8"};
-constexpr std::array curve_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                   "#000000", "#56b4e9", "#e69f00", "#7f7f7f"};
 constexpr std::size_t most_points = 20000, most_drawn = 8;
 
 /// Pixels, of the diagrams; the key is beside them.
-constexpr double sweep_left = 84, sweep_right = 500, sweep_key = 512;
+constexpr double sweep_left = 84, sweep_right = 500;
 
-/// And above the diagrams.
-double above(const std::string& title) { return title.empty() ? 12 : 30; }
-
-/// The sets that occur, in the order of their first point.
+/// The sets that occur, in the order of their first point. Those beyond the fills of gnuplot share the last.
 class ContactSets {
  public:
-  ContactSets(const std::vector<SweepPoint>& points, const std::vector<std::string>& constraints)
-      : constraints_(constraints) {
-    for (const SweepPoint& point : points) of(point);
+  ContactSets(const std::vector<SweepPoint>& points, const std::vector<std::string>& constraints) {
+    std::vector<std::string> names, numbers;
+    for (const SweepPoint& point : points)
+      if (place_.emplace(key_of(point), names.size()).second) {
+        names.push_back(name_of(point, constraints));
+        numbers.push_back(fmt::format("set {}", names.size()));
+      }
+    names_ = told_apart(names, numbers);
+    if (names_.size() <= most_fills) return;
+    const std::size_t others = names_.size() - most_fills + 1;
+    names_.resize(most_fills);
+    names_.back() = fmt::format("{} other sets", others);
   }
-  std::size_t of(const SweepPoint& point) {
-    const std::string name = name_of(point);
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found != names_.end()) return static_cast<std::size_t>(found - names_.begin());
-    names_.push_back(name);
-    return names_.size() - 1;
+  std::size_t of(const SweepPoint& point) const {
+    return std::min(place_.at(key_of(point)), names_.size() - 1);
   }
   const std::vector<std::string>& names() const { return names_; }
 
  private:
-  std::string name_of(const SweepPoint& point) const {
-    if (!point.has_answer()) return point.status;
-    if (point.active.empty()) return "no contact";
-    std::string name;
-    constexpr std::size_t longest = 40;
-    for (const convex::Index a : point.active) {
-      if (name.size() > longest) return name + ", …";
-      name += (name.empty() ? "" : ", ") + constraints_[static_cast<std::size_t>(a)];
-    }
-    return name;
+  using Key = std::pair<std::string, std::vector<convex::Index>>;
+  /// Without an answer its reason counts, and no contacts.
+  static Key key_of(const SweepPoint& point) {
+    return point.has_answer() ? Key{"", point.active} : Key{point.status, {}};
   }
-  const std::vector<std::string>& constraints_;
+  static std::string name_of(const SweepPoint& point, const std::vector<std::string>& constraints) {
+    if (!point.has_answer()) return point.status;
+    std::vector<std::string> held;
+    for (const convex::Index a : point.active) held.push_back(constraints[static_cast<std::size_t>(a)]);
+    return contact_set_name(held, constraints);
+  }
+  std::map<Key, std::size_t> place_;
   std::vector<std::string> names_;
 };
-
-const char* band_colour(std::size_t set) { return band_colours[set % band_colours.size()]; }
 
 /// Entries of the key for the sets, drawn with no points.
 std::string sets_in_key(const ContactSets& sets) {
   std::string text;
   for (std::size_t k = 0; k < sets.names().size(); ++k)
-    text += fmt::format(", \\\n  NaN with boxes fs solid 1 border lc rgb \"#888888\" fc rgb \"{}\" title {}",
-                        band_colour(k), quoted(sets.names()[k]));
+    text += fmt::format(", \\\n  NaN with boxes {} title {}", set_fill(k, "border lc rgb \"#888888\""),
+                        quoted(sets.names()[k]));
   return text;
 }
 
 struct CurvePanel {
   std::string label;
-  std::vector<std::size_t> columns;  // of what is watched
+  std::vector<std::size_t> columns = {};  // of what is watched
+  std::size_t left_out = 0;
 };
 
 std::vector<CurvePanel> panels_of(const std::vector<Watched>& watched, bool is_unique) {
   const char* multipliers = is_unique ? "lambda" : "lambda: least norm; not unique";
-  std::vector<CurvePanel> panels{{"q''", {}}, {multipliers, {}}, {"reaction", {}}, {"G", {}}};
+  std::vector<CurvePanel> panels{{"q''"}, {multipliers}, {"reaction"}, {"G"}};
   for (std::size_t k = 0; k < watched.size(); ++k) {
-    auto& columns = panels[static_cast<std::size_t>(watched[k].of)].columns;
-    if (columns.size() < most_drawn) columns.push_back(k);
+    CurvePanel& panel = panels[static_cast<std::size_t>(watched[k].of)];
+    if (panel.columns.size() < most_drawn)
+      panel.columns.push_back(k);
+    else
+      ++panel.left_out;
   }
   std::erase_if(panels, [](const CurvePanel& panel) { return panel.columns.empty(); });
   return panels;
@@ -86,7 +88,7 @@ std::vector<CurvePanel> panels_of(const std::vector<Watched>& watched, bool is_u
 std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string("NaN"); }
 
 Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
-              const std::vector<Watched>& watched, ContactSets& sets, const std::string& title) {
+              const std::vector<Watched>& watched, const ContactSets& sets, const std::string& title) {
   std::vector<const SweepPoint*> sorted;
   for (const SweepPoint& point : points) sorted.push_back(&point);
   std::stable_sort(sorted.begin(), sorted.end(),
@@ -106,29 +108,24 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
     const double to = k + 1 == sorted.size()     ? last
                       : sorted[k + 1]->is_change ? sorted[k + 1]->at[0]
                                                  : (sorted[k]->at[0] + sorted[k + 1]->at[0]) / 2;
-    if (set > 0 || band_colour(set) != band_colours[0])
-      objects += fmt::format(
-          "set object rectangle from {}, graph 0 to {}, graph 1 behind fc rgb \"{}\" fs solid 1 noborder\n",
-          from, to, band_colour(set));
+    if (set > 0)  // white
+      objects += fmt::format("set object rectangle from {}, graph 0 to {}, graph 1 behind {}\n", from, to,
+                             set_fill(set, "noborder"));
     from = to;
   }
   const std::vector<CurvePanel> panels =
       panels_of(watched, std::all_of(points.begin(), points.end(),
                                      [](const SweepPoint& point) { return point.has_unique_multipliers; }));
-  Drawing made;
-  constexpr int panel_height = 210;
-  made.height = panel_height * static_cast<int>(panels.size()) + 50;
-  made.script = "$points << EOD\n" + data + "EOD\n" + objects;
-  std::vector<std::string> words = sets.names();
-  for (const CurvePanel& panel : panels)
-    for (const std::size_t column : panel.columns) words.push_back(watched[column].name);
-  made.width = width_with_key(sweep_right, words);
-  made.script += fmt::format(
-      "set multiplot layout {},1 title {} font \",11\" margins {},{},{},{} spacing 0.04\nset xrange [{}:{}]\n"
-      "set border 3 lc rgb \"#666666\" lw 0.7\nset tics nomirror font \",9\"\n"
-      "set key at screen {}, graph 1 left top Left reverse font \",9\" samplen 1.5\n",
-      panels.size(), quoted(title), sweep_left / made.width, sweep_right / made.width, 50.0 / made.height,
-      1 - above(title) / made.height, first, last > first ? last : first + 1, sweep_key / made.width);
+  StackedDiagrams stacked{sweep_left, sweep_right, {}};
+  for (const CurvePanel& panel : panels) {
+    std::vector<std::string> names;
+    for (const std::size_t column : panel.columns) names.push_back(watched[column].name);
+    stacked.keys.push_back(key_of_curves(std::move(names), panel.left_out));
+  }
+  stacked.keys[0].insert(stacked.keys[0].end(), sets.names().begin(), sets.names().end());
+  Drawing made = stacked.page(title);
+  made.script = "$points << EOD\n" + data + "EOD\n" + objects + made.script +
+                fmt::format("set xrange [{}:{}]\n", first, last > first ? last : first + 1);
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const bool is_last = p + 1 == panels.size();
     made.script += fmt::format("set ylabel {} font \",10\"\n", quoted(panels[p].label));
@@ -137,10 +134,9 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
     made.script += "plot ";
     for (std::size_t k = 0; k < panels[p].columns.size(); ++k)
       made.script +=
-          fmt::format("{}$points using 1:{} with lines lc rgb \"{}\" lw 1.6 title {}",
-                      k > 0 ? ", \\\n  " : "", panels[p].columns[k] + 2,
-                      curve_colours[k % curve_colours.size()], quoted(watched[panels[p].columns[k]].name));
-    made.script += (p == 0 ? sets_in_key(sets) : "") + "\n";
+          fmt::format("{}$points using 1:{} with lines {} lw 1.6 title {}", k > 0 ? ", \\\n  " : "",
+                      panels[p].columns[k] + 2, curve_style(k), quoted(watched[panels[p].columns[k]].name));
+    made.script += left_out_in_key(panels[p].left_out) + (p == 0 ? sets_in_key(sets) : "") + "\n";
   }
   made.script += "unset multiplot\n";
   return made;
@@ -160,8 +156,8 @@ std::vector<double> borders_of(std::vector<double> values) {
   return borders;
 }
 
-Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>& ranges, ContactSets& sets,
-            const std::string& title) {
+Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>& ranges,
+            const ContactSets& sets, const std::string& title) {
   const std::vector<double> x = borders_of(ranges[0].values), y = borders_of(ranges[1].values);
   const auto cell = [](const std::vector<double>& borders, double value) {
     const auto above = std::upper_bound(borders.begin(), borders.end(), value);
@@ -175,27 +171,29 @@ Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>
     data[sets.of(point)] +=
         fmt::format("{} {} {} {} {} {}\n", point.at[0], point.at[1], left, right, low, high);
   }
+  constexpr double above = 34, below = 58, least_frame = 390, key_apart = 12;
+  const double frame = std::max(least_frame, key_height(data.size()));
   Drawing made;
-  made.height = 480;
+  made.height = static_cast<int>(above + frame + below);
   made.width = width_with_key(sweep_right, sets.names());
   for (std::size_t k = 0; k < data.size(); ++k)
     made.script += fmt::format("$set{} << EOD\n{}EOD\n", k, data[k]);
   made.script += fmt::format(
       "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset title {} font "
-      "\",11\"\n"
-      "set bmargin at screen 0.12\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
+      "\",11\" offset 0,-0.4\n"
+      "set bmargin at screen {}\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
       "set tics nomirror out font \",9\"\nset key at screen {}, graph 1 left top Left reverse font \",9\" "
       "samplen 1.5\nplot ",
-      sweep_left / made.width, sweep_right / made.width, 1 - above(title) / made.height, quoted(title),
-      x.front(), x.back(), y.front(), y.back(), quoted(ranges[0].key), quoted(ranges[1].key),
-      sweep_key / made.width);
+      sweep_left / made.width, sweep_right / made.width, 1 - above / made.height,
+      quoted(heading_line(title, sweep_left + sweep_right - 12)), below / made.height, x.front(), x.back(),
+      y.front(), y.back(), quoted(ranges[0].key), quoted(ranges[1].key),
+      (sweep_right + key_apart) / made.width);
   constexpr std::size_t with_borders = 2500;
   const std::string border = points.size() <= with_borders ? "border lc rgb \"#bbbbbb\"" : "noborder";
   for (std::size_t k = 0; k < data.size(); ++k)
-    made.script +=
-        fmt::format("{}$set{} using 1:2:3:4:5:6 with boxxyerror fs solid 1 {} fc rgb \"{}\" lw 0.4 title {}",
-                    k > 0 ? ", \\\n  " : "", k, border, band_colour(k), quoted(sets.names()[k]));
+    made.script += fmt::format("{}$set{} using 1:2:3:4:5:6 with boxxyerror {} lw 0.4 title {}",
+                               k > 0 ? ", \\\n  " : "", k, set_fill(k, border), quoted(sets.names()[k]));
   made.script += "\n";
   return made;
 }
@@ -219,7 +217,7 @@ void SweepRecord::add(const SweepPoint& point) {
 Drawing sweep_drawing(const SweepRecord& record, const std::vector<SweepRange>& ranges,
                       const std::vector<Watched>& watched, const std::vector<std::string>& constraints,
                       const std::string& title) {
-  ContactSets sets(record.points(), constraints);
+  const ContactSets sets(record.points(), constraints);
   return ranges.size() == 1 ? bands(record.points(), ranges[0], watched, sets, title)
                             : map(record.points(), ranges, sets, title);
 }

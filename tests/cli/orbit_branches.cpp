@@ -134,6 +134,39 @@ TEST_CASE("a velocity that jumps where an impact passes the instant of the start
   }
 }
 
+TEST_CASE(
+    "towards a graze the multiplier of orbits with the impact is not joined to that of orbits without it") {
+  const auto point = [](double value, int impacts, double multiplier, bool is_stable, const char* event) {
+    cli::BranchPoint made;
+    made.value = value;
+    made.orbit.start.q = made.orbit.start.v = convex::Vector::Constant(1, 1);
+    made.orbit.period = 2;
+    made.orbit.is_stable = is_stable;
+    made.orbit.multipliers = {{multiplier, 0.0}};
+    made.event = event;
+    for (int k = 0; k < impacts; ++k) made.orbit.impacts.emplace_back().t = 1;
+    return made;
+  };
+  // Without the impact, stable up to the graze; with it unstable up to a flip, and stable after it.
+  const std::string script =
+      cli::branch_drawing({point(1, 0, 0.4, true, ""), point(2, 0, 0.4, true, "grazing"),
+                           point(3, 1, 1, false, "flip"), point(4, 1, 0.3, true, "")},
+                          {"x"}, "w", "")
+          .script;
+  CHECK(script.find("$stable << EOD\n1 1 1 0.4\n2 1 1 0.4\n\n3 1 1 1\n4 1 1 0.3\nEOD") != std::string::npos);
+  CHECK(script.find("$unstable << EOD\n2 1 1 0.4\n2 1 1 NaN\n3 1 1 1\nEOD") != std::string::npos);
+}
+
+TEST_CASE("a branch of one orbit is a mark, and a picture") {
+  cli::BranchPoint only;
+  only.value = 1;
+  only.orbit.start.q = only.orbit.start.v = convex::Vector::Constant(1, 1);
+  only.orbit.is_stable = true;
+  const std::string script = cli::branch_drawing({only}, {"x"}, "w", "").script;
+  CHECK(script.find("$stable << EOD\n1 1 1 NaN\nEOD") != std::string::npos);
+  CHECK(script.find("with linespoints") != std::string::npos);
+}
+
 TEST_CASE("a flip is told where the multiplier of the closed form is -1") {
   // A ball on a shaken table, once a period: with the flight time T = 2 pi/w the relative speed after an
   // impact is g T/(1 + e) ... e g T/(1 + e), and the trace of the map is 1 + e^2 - (1 + e)^2 A w^2

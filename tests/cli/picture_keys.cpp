@@ -1,0 +1,148 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "cli/drawing/gnuplot.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/svg_text.hpp"
+
+using namespace tests;
+
+namespace {
+
+/// One push p on so many pistons, of which one after the other is pressed against its stop.
+std::string pushed_pistons(int count, const std::string& stop = "stop") {
+  std::string coordinates, kinetic, potential, constraints, position;
+  for (int i = 1; i <= count; ++i) {
+    const std::string y = "y" + std::to_string(i), comma = i > 1 ? ", " : "", plus = i > 1 ? " + " : "";
+    coordinates += comma + '"' + y + '"';
+    kinetic += plus + "m*" + y + "'^2/2";
+    potential += plus + "(p - " + std::to_string(i) + "/" + std::to_string(count) + ")*" + y;
+    constraints += stop + std::to_string(i) + " = \"" + y + " >= 0\"\n";
+    position += comma + y + " = 1";
+  }
+  return "title = \"pistons\"\n[system]\ncoordinates = [" + coordinates + "]\nkinetic = \"" + kinetic +
+         "\"\npotential = \"" + potential + "\"\n[system.parameters]\np = 2\nm = 1\n[system.constraints]\n" +
+         constraints + "[state]\nposition = { " + position + " }\n[simulate]\nuntil = 8\nrestitution = 0.5\n";
+}
+
+std::string at_the_stops(std::string file) {
+  return std::regex_replace(file, std::regex(R"re((y\d+ =) 1)re"), "$1 0");
+}
+
+std::string drawn(std::vector<std::string> arguments, const std::string& picture) {
+  arguments.insert(arguments.end(), {"--quiet", "--plot", picture});
+  const Outcome outcome = run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  std::stringstream svg;
+  svg << std::ifstream(picture).rdbuf();
+  return svg.str();
+}
+
+std::size_t times(const std::vector<SvgText>& texts, const std::string& words) {
+  return static_cast<std::size_t>(
+      std::count_if(texts.begin(), texts.end(), [&](const SvgText& t) { return t.text == words; }));
+}
+
+/// Where the arrows of a colour begin and end, "x,y" each: their shafts come last in a path. The key is not
+/// among them, which is beside the map.
+std::vector<std::pair<std::string, std::string>> arrows_of(const std::string& colour,
+                                                           const std::string& svg) {
+  constexpr double map_ends = 525;
+  std::vector<std::pair<std::string, std::string>> found;
+  const std::regex shaft("<path +stroke='" + colour + "' *d='[^']*M([-0-9.,]+) +L([-0-9.,]+) *'");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), shaft), end; it != end; ++it)
+    if (std::stod((*it)[1]) <= map_ends) found.emplace_back((*it)[1], (*it)[2]);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("keys of many lines stand whole beside the curves, and say how many curves are not drawn") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string moving = folder.write("a.toml", pushed_pistons(12)),
+                    resting = folder.write("b.toml", at_the_stops(pushed_pistons(12))),
+                    picture = folder.path("a.svg");
+  const std::string sweep = drawn({"sweep", resting, "--over", "p=-0.2:0.05:1.3"}, picture),
+                    motion = drawn({"simulate", moving}, picture);
+  for (const std::string& svg : {sweep, motion}) {
+    check_legible(svg);
+    const std::vector<SvgText> texts = svg_texts(svg);
+    CHECK(times(texts, "and 4 more, not drawn") >= 2);
+    for (const SvgText& text : texts)
+      if (text.text.find("stop") != std::string::npos || text.text.find("y8") != std::string::npos)
+        CHECK(text.left >= 500);  // where the diagrams end
+  }
+  for (const char* name : {"y1''", "y8''", "lambda[stop8]", "no contact", "stop1, stop2", "all 12 contacts"})
+    CHECK(times(svg_texts(sweep), name) == 1);
+  for (const char* name : {"y1", "y8", "impact", "accumulation"}) CHECK(times(svg_texts(motion), name) == 1);
+}
+
+TEST_CASE("sets of contacts whose long names begin alike are told apart in a sweep and on its map") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string file = folder.write("a.toml", at_the_stops(pushed_pistons(6, "a_long_name_of_a_stop_")));
+  for (const std::vector<std::string>& over : {std::vector<std::string>{"--over", "p=-0.25:0.1:1.15"},
+                                               {"--over", "p=-0.25:0.1:1.15", "--over", "m=1,2"}}) {
+    std::vector<std::string> arguments{"sweep", file};
+    arguments.insert(arguments.end(), over.begin(), over.end());
+    const std::string svg = drawn(arguments, folder.path("a.svg"));
+    std::set<std::string> sets;
+    for (const SvgText& text : svg_texts(svg)) {
+      const bool is_set = text.text.rfind("a_long_name", 0) == 0 || text.text.rfind("all ", 0) == 0;
+      if (is_set || text.text == "no contact") CHECK(sets.insert(text.text).second);
+    }
+    CHECK(sets.size() >= 7);  // none, the first, the first two, …
+  }
+}
+
+TEST_CASE("a long title is cut to what the page holds") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string title(70, 'W'),
+      picture = folder.path("a.svg"),
+      file = folder.write(
+          "a.toml", "title = \"" + title + " " + title + "\"\n" + at_the_stops(pushed_pistons(2)).substr(18));
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"solve", file},
+                                                    {"atlas", file},
+                                                    {"simulate", file},
+                                                    {"sweep", file, "--over", "p=1,2"},
+                                                    {"sweep", file, "--over", "p=1,2", "--over", "m=1,2"}}) {
+    CAPTURE(arguments[0]);
+    const std::string svg = drawn(arguments, picture);
+    check_legible(svg);
+    for (const SvgText& text : svg_texts(svg))
+      if (text.text.rfind("WWW", 0) == 0) CHECK(text.text.find("…") != std::string::npos);
+  }
+}
+
+TEST_CASE("the arrows of an atlas begin where their force is, also where they leave the map") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string file = tests::source_folder() + "docs/problems/delassus_drops_too_much.toml";
+  for (const char* range : {"=-6:6", "=0:6"}) {
+    const std::string svg = drawn(
+        {"atlas", file, "--over", std::string("force.y") + range, "--over", std::string("force.a") + range},
+        folder.path("a.svg"));
+    check_legible(svg);
+    const auto free = arrows_of("rgb\\(213,  94,   0\\)", svg),
+               truth = arrows_of("rgb\\(  0, 114, 178\\)", svg);
+    REQUIRE(free.size() >= 2);
+    std::set<std::string> tips, begins;
+    for (const auto& arrows : {free, truth})
+      for (const auto& [from, to] : arrows) {
+        CHECK(tips.insert(to).second);
+        begins.insert(from);
+      }
+    for (const std::string& tip : tips) CHECK(begins.count(tip) == 0);
+    for (const auto& [from, to] : truth)
+      CHECK(std::any_of(free.begin(), free.end(),
+                        [&, at = from](const auto& arrow) { return arrow.first == at; }));
+  }
+}
