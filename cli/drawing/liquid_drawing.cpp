@@ -25,6 +25,16 @@ std::string liquid_title(const LiquidSolution& found, const std::string& title) 
   return text;
 }
 
+/// Between contours: 1, 2 or 5 times a power of ten, so that there are twelve at most. They are counted from
+/// 0, not from the least p that is seen: where p is one number but for rounding, its noise has none.
+double between_contours(double largest) {
+  constexpr double most_contours = 12;
+  const double least = largest / most_contours, decade = std::pow(10, std::floor(std::log10(least)));
+  for (const double part : {1.0, 2.0, 5.0})
+    if (part * decade >= least) return part * decade;
+  return 10 * decade;
+}
+
 Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& found, const std::string& title) {
   constexpr int points = 1000;
   std::string curve, cavity;
@@ -77,14 +87,18 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
   if (!hatching.empty())
     script += "$hatching << END\n" + hatching + "END\n$outline << END\n" + outline + "END\n";
   if (!parted.empty()) script += "$parted << END\n" + parted + "END\n";
-  script +=
-      "set contour base\nset cntrparam levels auto 12\nunset surface\nset table $contours\nsplot $p using "
-      "1:2:3 with lines "
-      "nosurface\nunset table\nset surface\nunset contour\n";
+  const double between = between_contours(std::max(found.largest, 1e-300));
+  constexpr double below_largest = 1 - 1e-6;
+  script += fmt::format(
+      "set contour base\nset cntrparam levels incremental {},{},{}\nunset surface\nset table "
+      "$contours\nsplot $p "
+      "using 1:2:3 with lines nosurface\nunset table\nset surface\nunset contour\n",
+      between, between, below_largest * found.largest);
   std::string heading = liquid_title(found, title);
   if (scene.dimension() == 3)
     heading += fmt::format("; section {} = {:.4g}", scene.coordinates[axes[2]], section.height());
-  if (arrows.fastest > 0) heading += fmt::format("\narrows: the velocity, at most {:.4g}", arrows.fastest);
+  if (arrows.fastest > 0)
+    heading += fmt::format("\narrows: the velocity, the longest {:.4g}", arrows.fastest);
   const double room = 0.03 * std::max(section.side(0), section.side(1));
   script += fmt::format(
       "set title {}\nset xlabel {}\nset ylabel {}\nset size ratio -1\nunset key\nset tics out\nset xrange "

@@ -175,10 +175,17 @@ std::vector<SectionPoint> LiquidSection::parted() const {
 LiquidSection::Arrows LiquidSection::velocity() const {
   Arrows arrows;
   if (scene_.velocity.empty()) return arrows;
-  const double apart = std::max(side(0), side(1)) / arrows_along_side;
+  // Evenly over each side, half a step off its ends, so that the picture is as symmetric as the domain.
+  const auto along = [&](std::size_t i) {
+    const double apart = std::max(side(0), side(1)) / arrows_along_side;
+    return std::max(1, static_cast<int>(std::lround(side(i) / apart)));
+  };
+  const int nx = along(0), ny = along(1);
+  const double apart = std::min(side(0) / nx, side(1) / ny);
   std::vector<std::array<double, 4>> drawn;
-  for (double y = low(1) + apart / 2; y < low(1) + side(1); y += apart)
-    for (double x = low(0) + apart / 2; x < low(0) + side(0); x += apart) {
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      const double x = low(0) + side(0) * (i + 0.5) / nx, y = low(1) + side(1) * (j + 0.5) / ny;
       const SectionPoint here = at(x, y);
       if (!is_inside(here)) continue;
       const SectionPoint there = in_space(here);
