@@ -140,6 +140,14 @@ class Looks(unittest.TestCase):
                 scene.plot(pathlib.Path(folder) / "scene.svg")
                 self.assertTrue((pathlib.Path(folder) / "scene.svg").stat().st_size > 1000)
 
+    def test_arrows_on_each_other_have_names_apart_and_what_is_zero_is_said(self):
+        for z, told in (([0.5, 0.25], ["z", "x = 0", "y"]), ([0, 0], ["z = x = y = 0"]), ([3, 1], ["z", "x", "y"])):
+            texts = xml.dom.minidom.parseString(moreau.decompose(moreau.norm1(), z)._repr_svg_()).getElementsByTagName("text")
+            self.assertEqual([text.firstChild.data for text in texts], told)
+            places = [(float(text.getAttribute("x")), float(text.getAttribute("y"))) for text in texts]
+            for i, (x, y) in enumerate(places):
+                self.assertTrue(all(abs(x - a) + abs(y - b) > 15 for a, b in places[:i]))
+
     def test_what_cannot_be_drawn_has_no_picture(self):
         self.assertIsNone(moreau.solve(z=[1.0], U=[[1.0]])._repr_svg_())
         self.assertIsNone(moreau.decompose(moreau.norm1(), [1, 2, 3])._repr_svg_())

@@ -69,23 +69,39 @@ def _split_html(split):
 
 
 def _split_svg(split):
-    """z = x + y in the plane of two entries, drawn as arrows."""
+    """z = x + y in the plane of two entries, drawn as arrows: z wide, so that it is seen under x and y; what is 0 as a dot."""
     if len(split.z) != 2:
         return None
-    points = np.array([[0, 0], split.z, split.x, split.y])
+    z, x, none = np.asarray(split.z, dtype=float), np.asarray(split.x, dtype=float), np.zeros(2)
+    points = np.array([none, z, x])
     low, high = points.min(axis=0), points.max(axis=0)
     scale = 240 / max(float((high - low).max()), 1e-300)
-    at = lambda p: (30 + (p[0] - low[0]) * scale, 270 - (p[1] - low[1]) * scale)
-    lines = []
-    for name, begin, end, colour in (("z", points[0], split.z, "#555555"), ("x", points[0], split.x, "#1b6ca8"),
-                                     ("y", split.x, split.z, "#c0392b")):
-        (x1, y1), (x2, y2) = at(begin), at(end)
-        lines.append(f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{colour}" '
-                     f'stroke-width="2" marker-end="url(#tip)"/><text x="{(x1 + x2) / 2 + 6:.1f}" '
-                     f'y="{(y1 + y2) / 2 - 6:.1f}" fill="{colour}">{name}</text>')
+    at = lambda p: 150 + scale * (p - (low + high) / 2) * [1, -1]
+    are_all_none = not (np.any(z) or np.any(x))
+    outside = 1 if z[0] * x[1] >= z[1] * x[0] else -1  # x and y are on this side of z, and their names beyond them
+    lines, tips = [], []
+    for name, begin, end, colour, width, side in (("z", none, z, "#aaaaaa", 6, -outside), ("x", none, x, "#1b6ca8", 2, outside),
+                                                  ("y", x, z, "#c0392b", 2, outside)):
+        a, b = at(begin), at(end)
+        is_dot = np.hypot(*(b - a)) < 1
+        way = at(z) - at(none) if is_dot else b - a
+        across = np.array([way[1], -way[0]]) / np.hypot(*way) if np.hypot(*way) > 0 else np.array([0, -1])
+        text = (a + b) / 2 + (15 + width / 2) * side * across
+        if is_dot:
+            lines.append(f'<circle cx="{a[0]:.1f}" cy="{a[1]:.1f}" r="{2 + width / 2}" fill="{colour}"/>')
+        else:
+            lines.append(f'<line x1="{a[0]:.1f}" y1="{a[1]:.1f}" x2="{b[0]:.1f}" y2="{b[1]:.1f}" stroke="{colour}" '
+                         f'stroke-width="{width}" marker-end="url(#tip_{name})"/>')
+        tips.append(f'<marker id="tip_{name}" markerUnits="userSpaceOnUse" markerWidth="{8 + 2 * width}" '
+                    f'markerHeight="{8 + 2 * width}" viewBox="0 0 8 8" refX="7" refY="4" orient="auto">'
+                    f'<path d="M0,1 L8,4 L0,7 z" fill="{colour}"/></marker>')
+        if are_all_none and name != "z":
+            continue  # one dot, with one name
+        named = "z = x = y = 0" if are_all_none else name if np.any(end - begin) else f"{name} = 0"
+        lines.append(f'<text x="{text[0]:.1f}" y="{text[1] + 5:.1f}" text-anchor="middle" '
+                     f'fill="{"#555555" if name == "z" else colour}">{named}</text>')
     return ('<svg xmlns="http://www.w3.org/2000/svg" width="300" height="300" font-family="Helvetica" font-size="14">'
-            '<defs><marker id="tip" markerWidth="8" markerHeight="8" refX="7" refY="4" orient="auto">'
-            '<path d="M0,0 L8,4 L0,8 z" fill="#333333"/></marker></defs>' + "".join(lines) + "</svg>")
+            f'<defs>{"".join(tips)}</defs>{"".join(lines)}</svg>')
 
 
 def _solution_repr(solution):
