@@ -154,6 +154,12 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
     v.names.push_back(coordinates[i] + "'");
   }
   const std::array panels{q, v, multiplier};
+  std::array<DrawnRange, panels.size()> ranges;  // that of the multiplier, on its scale, is not asked for
+  for (const BranchPoint& point : points)
+    for (std::size_t i = 0; i < drawn; ++i) {
+      ranges[0].add(point.orbit.start.q[static_cast<convex::Index>(i)]);
+      ranges[1].add(point.orbit.start.v[static_cast<convex::Index>(i)]);
+    }
   StackedDiagrams stacked{branch_left, branch_right, {}};
   for (const BranchPanel& panel : panels)
     stacked.keys.push_back(key_of(panel, !stable.empty(), !unstable.empty(), events));
@@ -167,13 +173,12 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
   if (room > 0) made.script += fmt::format("set xrange [{}:{}]\n", low->value - room, high->value + room);
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const bool is_last = k + 1 == panels.size();
-    made.script += fmt::format("set ylabel {} font \",10\"\n", quoted(panels[k].label));
-    made.script += is_last ? fmt::format(
-                                 "set xlabel {} font \",10\"\nset format x\nset logscale y\n"
-                                 "set arrow from graph 0, first 1 to graph 1, first 1 nohead lc rgb "
-                                 "\"#888888\" lw 0.8 back\n",
-                                 quoted(parameter))
-                           : "unset xlabel\nset format x \"\"\n";
+    made.script +=
+        axes_of_diagram(page, panels[k].label, parameter, is_last, {low->value, high->value}, ranges[k]);
+    if (is_last)
+      made.script +=
+          "set logscale y\nset arrow from graph 0, first 1 to graph 1, first 1 nohead lc rgb \"#888888\" lw "
+          "0.8 back\n";
     made.script += panel_curves(panels[k], !stable.empty(), !unstable.empty(), events, points.size());
   }
   made.script += "unset multiplot\n";

@@ -1,5 +1,6 @@
 #include "cli/drawing/liquid_drawing.hpp"
 
+#include "cli/drawing/label_placement.hpp"
 #include "cli/drawing/liquid_section.hpp"
 #include "convex/invalid_input.hpp"
 
@@ -18,8 +19,9 @@ using mechanics::liquid::LiquidScene;
 using mechanics::liquid::LiquidSolution;
 
 std::string liquid_title(const LiquidSolution& found, const std::string& title) {
-  std::string text =
-      (title.empty() ? "" : title + "\n") + "pressure, at most " + fmt::format("{:.4g}", found.largest);
+  constexpr double room = 600;
+  std::string text = (title.empty() ? "" : heading_line(title, room) + "\n") + "pressure, at most " +
+                     fmt::format("{:.4g}", found.largest);
   if (found.cavity_measure > 0) text += "; hatched: the cavity";
   if (!found.parted_walls.empty()) text += "; red: walls that part";
   return text;
@@ -99,6 +101,8 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
     heading += fmt::format("; section {} = {:.4g}", scene.coordinates[axes[2]], section.height());
   if (arrows.fastest > 0)
     heading += fmt::format("\narrows: the velocity, the longest {:.4g}", arrows.fastest);
+  else if (with_velocity)
+    heading += "\nthe velocity is 0";
   const double room = 0.03 * std::max(section.side(0), section.side(1));
   script += fmt::format(
       "set title {}\nset xlabel {}\nset ylabel {}\nset size ratio -1\nunset key\nset tics out\nset xrange "
@@ -108,7 +112,7 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
       "'#2171b5')\nset cbrange [0:{}]\n",
       cli::quoted(heading), cli::quoted(scene.coordinates[axes[0]]), cli::quoted(scene.coordinates[axes[1]]),
       section.low(0) - room, section.low(0) + section.side(0) + room, section.low(1) - room,
-      section.low(1) + section.side(1) + room, std::max(found.largest, 1e-300));
+      section.low(1) + section.side(1) + room, found.largest > 0 ? found.largest : 1);
   script += "plot $p using 1:2:3 with image, $contours using 1:2 with lines lc rgb '#505050' lw 0.7";
   if (!hatching.empty()) script += ", $hatching using 1:2:3:4 with vectors nohead lc rgb '#303030' lw 0.8";
   if (!hatching.empty() && !outline.empty())

@@ -69,13 +69,8 @@ std::string axis_name(const Panel& panel) {
 }
 
 /// What begins at 0 is drawn at 0 where rounding is below it.
-std::string panel_script(const Panel& panel, bool is_last, bool from_zero, const std::string& key_of_events) {
-  // A label of its own: one beside tics of many digits would leave the picture.
-  std::string text =
-      fmt::format("set label 1 {} at screen 0.015, graph 0.5 center rotate by 90 font \",10\"\n",
-                  quoted(axis_name(panel)));
-  text += is_last ? "set xlabel \"t\" font \",10\"\nset format x\n" : "unset xlabel\nset format x \"\"\n";
-  text += "plot ";
+std::string panel_curves(const Panel& panel, bool from_zero, const std::string& key_of_events) {
+  std::string text = "plot ";
   for (std::size_t k = 0; k < panel.names.size(); ++k) {
     const Index column = panel.first_column + static_cast<Index>(k);
     text += fmt::format("{}$points using 1:{} with lines {} lw 1.4 title {}", k > 0 ? ", \\\n  " : "",
@@ -83,26 +78,6 @@ std::string panel_script(const Panel& panel, bool is_last, bool from_zero, const
                         curve_style(k), quoted(panel.names[k]));
   }
   return text + left_out_in_key(panel.left_out) + key_of_events + "\n";
-}
-
-/// What is constant but for rounding is a line, and not its noise; f and lambda, which are not below 0, begin
-/// there.
-constexpr double drawn_rounding = 1e-9;
-
-bool begins_at_zero(const std::pair<double, double>& range) {
-  return range.first >= -drawn_rounding * range.second;
-}
-
-std::string range_script(const std::pair<double, double>& range, bool from_zero) {
-  constexpr double rounding = drawn_rounding;
-  const auto [low, high] = range;
-  const double size = std::max(std::abs(low), std::abs(high));
-  constexpr double short_part = 1e-4;  // below it the usual six digits are the same at each tick
-  if (!(high - low <= rounding * std::max(size, rounding)))
-    return (from_zero && begins_at_zero(range) ? "set yrange [0:*]\n" : "set autoscale y\n") +
-           std::string(high - low < short_part * size ? "set format y \"%.10g\"\n" : "set format y\n");
-  const double half = size > rounding ? 0.1 * size : 1;
-  return fmt::format("set yrange [{}:{}]\nset format y\n", low - half, high + half);
 }
 
 }  // namespace
@@ -120,11 +95,9 @@ void MotionDrawing::add(double t, const Vector& q, const Vector& f, const Vector
   for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", f[a]);
   for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", lambda[a]);
   points_ += fmt::format(" {}\n", energy);
-  const auto widen = [](std::pair<double, double>& range, double x) {
-    range = {std::min(range.first, x), std::max(range.second, x)};
-  };
-  widen(energies_, energy);
-  for (Index a = 0; a < constraints_; ++a) widen(gaps_, f[a]), widen(forces_, lambda[a]);
+  energies_.add(energy);
+  for (Index i = 0; i < coordinates_; ++i) positions_.add(q[i]);
+  for (Index a = 0; a < constraints_; ++a) gaps_.add(f[a]), forces_.add(lambda[a]);
   ++point_;
 }
 
@@ -186,12 +159,17 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
                 marks;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const std::string& label = panels[k].label;
-    const auto& range = label == "energy" ? energies_ : label == "f" ? gaps_ : forces_;
-    made.script += label == "q" ? "set autoscale y\nset format y\n" : range_script(range, label != "energy");
+    const DrawnRange& range = label == "q"        ? positions_
+                              : label == "f"      ? gaps_
+                              : label == "lambda" ? forces_
+                                                  : energies_;
+    const bool from_zero = (label == "f" || label == "lambda") && range.begins_at_zero();
     std::string key;  // of events, once, below the names of coordinates
     for (const auto& [kind, line] : kinds) key += k == 0 ? line : "";
-    const bool from_zero = (label == "f" || label == "lambda") && begins_at_zero(range);
-    made.script += panel_script(panels[k], k + 1 == panels.size(), from_zero, key);
+    made.script +=
+        axes_of_diagram(made, axis_name(panels[k]), "t", k + 1 == panels.size(), {begin_, end_}, range) +
+        (from_zero && !range.is_constant() ? "set yrange [0:*]\n" : "") +
+        panel_curves(panels[k], from_zero, key);
   }
   made.script += "unset multiplot\n";
   return made;

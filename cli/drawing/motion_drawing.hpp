@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/drawing/drawn_range.hpp"
 #include "cli/drawing/gnuplot.hpp"
 #include "mechanics/motion/motion.hpp"
 
@@ -31,8 +32,7 @@ class MotionDrawing {
   convex::Index coordinates_, constraints_;  // that are drawn
   long point_ = 0;
   std::string points_;
-  std::pair<double, double> energies_{INFINITY, -INFINITY}, gaps_{INFINITY, -INFINITY},
-      forces_{INFINITY, -INFINITY};                         ///< least and largest
+  DrawnRange positions_, gaps_, forces_, energies_;
   std::set<std::pair<mechanics::EventKind, long>> events_;  // where they are marked
 };
 

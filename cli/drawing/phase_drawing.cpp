@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/drawing/label_placement.hpp"
+
 namespace cli::inline drawings {
 
 PhaseDrawing::PhaseDrawing(const mechanics::LagrangianSystem& system, convex::Index coordinate,
@@ -55,7 +57,8 @@ Drawing PhaseDrawing::drawing(const std::string& title) const {
       "set grid lc rgb \"#dddddd\" lw 0.5 dt 1\nset border 3 lc rgb \"#666666\" lw 0.7\nset tics nomirror "
       "font "
       "\",9\"\nplot $points using 1:2 with {} lc rgb \"#0072b2\"\n",
-      quoted(title), quoted(name), quoted(name + "'"), is_strobe_ ? "points pt 7 ps 0.25" : "lines lw 1.2");
+      quoted(heading_line(title, made.width - 12)), quoted(name), quoted(name + "'"),
+      is_strobe_ ? "points pt 7 ps 0.25" : "lines lw 1.2");
   return made;
 }
 

@@ -46,6 +46,19 @@ Drawing StackedDiagrams::page(const std::string& title) const {
   return made;
 }
 
+std::string axes_of_diagram(const Drawing& page, const std::string& y, const std::string& x, bool is_last,
+                            const DrawnRange& along_x, const DrawnRange& along_y) {
+  constexpr double from_edge = 11;
+  const DrawnRange roomy = along_y.with_room();
+  return fmt::format("set label 1 {} at screen {}, graph 0.5 center rotate by 90 font \",10\"\n", quoted(y),
+                     from_edge / page.width) +
+         (is_last ? fmt::format("set xlabel {} font \",10\"\n", quoted(x)) + tic_format("x", along_x)
+                  : "unset xlabel\nset format x \"\"\n") +
+         (along_y.is_constant() ? fmt::format("set yrange [{}:{}]\n", roomy.low, roomy.high)
+                                : "set autoscale y\n") +
+         tic_format("y", roomy);
+}
+
 const char* curve_colour(std::size_t k) { return colours_of_curves[k % colours_of_curves.size()]; }
 
 std::string curve_style(std::size_t k) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/drawing/drawn_range.hpp"
 #include "cli/drawing/gnuplot.hpp"
 
 namespace cli::inline drawings {
@@ -17,6 +18,11 @@ struct StackedDiagrams {
   /// The size of the page, and a script up to the first diagram.
   Drawing page(const std::string& title) const;
 };
+
+/// What is written at the axes of the k-th diagram of a page: the name of y on the edge of the page, clear of
+/// its numbers however long, and below the last diagram x.
+std::string axes_of_diagram(const Drawing& page, const std::string& y, const std::string& x, bool is_last,
+                            const DrawnRange& along_x, const DrawnRange& along_y);
 
 /// The height of a key of so many lines in small letters, in pixels.
 double key_height(std::size_t lines);

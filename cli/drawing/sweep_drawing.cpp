@@ -87,6 +87,9 @@ std::vector<CurvePanel> panels_of(const std::vector<Watched>& watched, bool is_u
 
 std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string("NaN"); }
 
+/// Half of the room of a value that is the only one.
+double lone_half(double value) { return 0.5 * std::max(1.0, std::abs(value)); }
+
 Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
               const std::vector<Watched>& watched, const ContactSets& sets, const std::string& title) {
   std::vector<const SweepPoint*> sorted;
@@ -94,8 +97,9 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const SweepPoint* a, const SweepPoint* b) { return a->at[0] < b->at[0]; });
   const double first = sorted.front()->at[0], last = sorted.back()->at[0];
+  const double alone = last > first ? 0 : lone_half(first);  // room around one value
   std::string objects, data;
-  double from = first;
+  double from = first - alone;
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     data += fmt::format("{}", sorted[k]->at[0]);
     for (const double value : sorted[k]->watched) data += " " + number_text(value);
@@ -105,7 +109,7 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
     const bool ends = k + 1 == sorted.size() || sorted[k + 1]->is_change ||
                       (!sorted[k]->is_change && sets.of(*sorted[k + 1]) != set);
     if (!ends || sorted[k]->is_change) continue;
-    const double to = k + 1 == sorted.size()     ? last
+    const double to = k + 1 == sorted.size()     ? last + alone
                       : sorted[k + 1]->is_change ? sorted[k + 1]->at[0]
                                                  : (sorted[k]->at[0] + sorted[k + 1]->at[0]) / 2;
     if (set > 0)  // white
@@ -125,17 +129,18 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
   stacked.keys[0].insert(stacked.keys[0].end(), sets.names().begin(), sets.names().end());
   Drawing made = stacked.page(title);
   made.script = "$points << EOD\n" + data + "EOD\n" + objects + made.script +
-                fmt::format("set xrange [{}:{}]\n", first, last > first ? last : first + 1);
+                fmt::format("set xrange [{}:{}]\n", first - alone, last + alone);
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    const bool is_last = p + 1 == panels.size();
-    made.script += fmt::format("set ylabel {} font \",10\"\n", quoted(panels[p].label));
-    made.script += is_last ? fmt::format("set xlabel {} font \",10\"\nset format x\n", quoted(range.key))
-                           : std::string("unset xlabel\nset format x \"\"\n");
+    DrawnRange values;
+    for (const SweepPoint& point : points)
+      for (const std::size_t column : panels[p].columns) values.add(point.watched[column]);
+    made.script +=
+        axes_of_diagram(made, panels[p].label, range.key, p + 1 == panels.size(), {first, last}, values);
     made.script += "plot ";
     for (std::size_t k = 0; k < panels[p].columns.size(); ++k)
-      made.script +=
-          fmt::format("{}$points using 1:{} with lines {} lw 1.6 title {}", k > 0 ? ", \\\n  " : "",
-                      panels[p].columns[k] + 2, curve_style(k), quoted(watched[panels[p].columns[k]].name));
+      made.script += fmt::format("{}$points using 1:{} with {} {} lw 1.6 title {}", k > 0 ? ", \\\n  " : "",
+                                 panels[p].columns[k] + 2, points.size() > 1 ? "lines" : "linespoints",
+                                 curve_style(k), quoted(watched[panels[p].columns[k]].name));
     made.script += left_out_in_key(panels[p].left_out) + (p == 0 ? sets_in_key(sets) : "") + "\n";
   }
   made.script += "unset multiplot\n";
@@ -147,7 +152,7 @@ std::vector<double> borders_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   std::vector<double> borders;
-  const double lone = 0.5 * std::max(1.0, std::abs(values.front()));
+  const double lone = lone_half(values.front());
   const double before = values.size() > 1 ? (values[1] - values[0]) / 2 : lone;
   borders.push_back(values.front() - before);
   for (std::size_t k = 1; k < values.size(); ++k) borders.push_back((values[k - 1] + values[k]) / 2);
@@ -184,11 +189,12 @@ Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>
       "set bmargin at screen {}\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
       "set tics nomirror out font \",9\"\nset key at screen {}, graph 1 left top Left reverse font \",9\" "
-      "samplen 1.5\nplot ",
+      "samplen 1.5\n{}{}plot ",
       sweep_left / made.width, sweep_right / made.width, 1 - above / made.height,
       quoted(heading_line(title, sweep_left + sweep_right - 12)), below / made.height, x.front(), x.back(),
       y.front(), y.back(), quoted(ranges[0].key), quoted(ranges[1].key),
-      (sweep_right + key_apart) / made.width);
+      (sweep_right + key_apart) / made.width, tic_format("x", {x.front(), x.back()}),
+      tic_format("y", {y.front(), y.back()}));
   constexpr std::size_t with_borders = 2500;
   const std::string border = points.size() <= with_borders ? "border lc rgb \"#bbbbbb\"" : "noborder";
   for (std::size_t k = 0; k < data.size(); ++k)

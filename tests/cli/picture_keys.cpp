@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "cli/drawing/drawn_range.hpp"
 #include "cli/drawing/gnuplot.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/svg_text.hpp"
@@ -145,4 +146,40 @@ TEST_CASE("the arrows of an atlas begin where their force is, also where they le
       CHECK(std::any_of(free.begin(), free.end(),
                         [&, at = from](const auto& arrow) { return arrow.first == at; }));
   }
+}
+
+TEST_CASE("numbers at an axis are told apart, and have one notation") {
+  if (!cli::has_gnuplot()) return;
+  CHECK(cli::tic_format("y", {0, 30}) == "set format y\n");
+  const Folder folder;
+  const std::string file = folder.write("a.toml", at_the_stops(pushed_pistons(2)));
+  for (const char* over : {"p=1000000:0.25:1000001", "p=0:100000:1000000", "p=100000000,100000001"}) {
+    CAPTURE(over);
+    const std::vector<SvgText> texts =
+        svg_texts(drawn({"sweep", file, "--over", over}, folder.path("a.svg")));
+    std::set<std::string> below, beside;
+    for (const SvgText& text : texts) {
+      if (text.text.find_first_not_of("-.0123456789") != std::string::npos) continue;
+      const bool is_beside = text.right <= 84;
+      CHECK((is_beside ? beside : below)
+                .insert(text.text + (is_beside && text.top < 220 ? " above" : ""))
+                .second);
+    }
+    CHECK(below.size() >= 2);
+    CHECK(std::none_of(texts.begin(), texts.end(), [](const SvgText& text) {
+      return text.text.find("×") != std::string::npos || text.text.find("x10") != std::string::npos;
+    }));
+  }
+}
+
+TEST_CASE("a sweep of one value is drawn as marks") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string file = folder.write("a.toml", at_the_stops(pushed_pistons(2)));
+  const std::string svg = drawn({"sweep", file, "--over", "p=0.75"}, folder.path("a.svg"));
+  for (const char* name : {"y1''", "lambda[stop2]"}) CHECK(times(svg_texts(svg), name) == 1);
+  // gnuplot's marks: those of the key and those of the values.
+  std::size_t marks = 0;
+  for (std::size_t at = 0; (at = svg.find("<use xlink:href='#gpPt", at)) != std::string::npos; ++at) ++marks;
+  CHECK(marks >= 8);
 }
