@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "cli/drawing/contact_sets.hpp"
 #include "cli/drawing/label_placement.hpp"
@@ -79,6 +80,18 @@ std::vector<std::string> region_names(const SolvedAtlas& solved, const std::vect
   return told_apart(names, numbers);
 }
 
+/// The fill of each region. Where there are more than fills, the smallest share the last.
+std::vector<std::size_t> region_fills(const std::vector<PlaneRegion>& regions) {
+  std::vector<std::size_t> order(regions.size()), fills(regions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (regions.size() > most_fills)
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+      return regions[j].polygon.area < regions[i].polygon.area;
+    });
+  for (std::size_t k = 0; k < order.size(); ++k) fills[order[k]] = std::min(k, most_fills - 1);
+  return fills;
+}
+
 /// Pairs of arrows as they are drawn: each of the two components to the scale of its largest.
 class ArrowsOnMap {
  public:
@@ -148,24 +161,30 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
   const auto bound = [](const convex::Fraction& x) { return convex::nearest_double(x); };
   const bool shows_file = sign(map.over[0].low) <= 0 && sign(map.over[0].high) >= 0 &&
                           sign(map.over[1].low) <= 0 && sign(map.over[1].high) >= 0;
-  bool hatched = false, file_has_region = false;
+  bool hatched = false, file_has_region = false, others_in_key = false;
   std::vector<ArrowPair> pairs;
   std::vector<std::string> key{"the force of the file", "free acceleration A⁻¹z", "true acceleration"};
   const std::vector<std::string> titles = region_names(solved, map.regions);
+  const std::vector<std::size_t> fills = region_fills(map.regions);
+  const auto shared = static_cast<std::size_t>(std::count(fills.begin(), fills.end(), most_fills - 1));
   for (std::size_t k = 0; k < map.regions.size(); ++k) {
     const PlaneRegion& region = map.regions[k];
     const std::string name = fmt::format("region{}", k), right = fmt::format("right{}", k);
     data += block(name, region.polygon);
-    plot(fmt::format("${} with filledcurves closed {} title {}", name,
-                     set_fill(k, "border lc rgb \"#888888\""), quoted(titles[k])));
-    key.push_back(titles[k]);
+    const bool is_one_of_others = shared > 1 && fills[k] == most_fills - 1;
+    if (!is_one_of_others || !others_in_key)
+      key.push_back(is_one_of_others ? fmt::format("{} smaller regions", shared) : titles[k]);
+    plot(fmt::format("${} with filledcurves closed {} {}", name,
+                     set_fill(fills[k], "border lc rgb \"#888888\""),
+                     is_one_of_others && others_in_key ? "notitle" : "title " + quoted(key.back())));
+    others_in_key = others_in_key || is_one_of_others;
     if (region.right && region.right->area < region.polygon.area) {
       hatched = true;
       plot(fmt::format(
           "${} with filledcurves closed fs transparent pattern 4 noborder fc rgb \"#777777\" notitle", name));
       if (sign(region.right->area) > 0) {
         data += block(right, *region.right);
-        plot(fmt::format("${} with filledcurves closed {} notitle", right, set_fill(k, "noborder")));
+        plot(fmt::format("${} with filledcurves closed {} notitle", right, set_fill(fills[k], "noborder")));
       }
     }
     plot(fmt::format("${} with lines lc rgb \"#555555\" lw 0.8 notitle", name));

@@ -183,3 +183,25 @@ TEST_CASE("a sweep of one value is drawn as marks") {
   for (std::size_t at = 0; (at = svg.find("<use xlink:href='#gpPt", at)) != std::string::npos; ++at) ++marks;
   CHECK(marks >= 8);
 }
+
+TEST_CASE("the largest regions of an atlas have fills and names of their own, and the others one together") {
+  if (!cli::has_gnuplot()) return;
+  constexpr int sides = 20;
+  std::string U, s;
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / sides;
+    U += (k > 0 ? ", [" : "[") + std::to_string(std::cos(angle)) + ", " + std::to_string(std::sin(angle)) +
+         "]";
+    s += k > 0 ? ", -1" : "-1";
+  }
+  const Folder folder;
+  const std::string file = folder.write(
+      "a.toml", "[projection]\nA = [[2, 0.5], [0.5, 1]]\nz = [9, 4]\nU = [" + U + "]\ns = [" + s + "]\n");
+  const std::string svg = drawn({"atlas", file}, folder.path("a.svg"));
+  check_legible(svg);
+  std::set<std::string> named;
+  for (const SvgText& text : svg_texts(svg))
+    if (text.text.rfind("c[", 0) == 0 || text.text == "no contact") CHECK(named.insert(text.text).second);
+  CHECK(named.size() >= 26);
+  CHECK(times(svg_texts(svg), "14 smaller regions") == 1);
+}
