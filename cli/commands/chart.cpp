@@ -202,14 +202,17 @@ std::string crossover_text(const std::vector<Trial>& trials) {
                                 compared_error, largest);
 }
 
+Drawing chart_drawing(const ChartOptions& options, const std::vector<Trial>& trials, const DrawnAs& drawn) {
+  return options.profile ? profile_drawing(trials) : work_precision_drawing(trials, drawn);
+}
+
 /// What is written: the data and the picture.
 void write_chart(const ChartOptions& options, const std::vector<Trial>& trials, const DrawnAs& drawn) {
   if (options.data) {
     write_file(*options.data, chart_csv(trials));
     write_file(about_file(*options.data), measurement_json(trials, chart_limits(options)));
   }
-  if (!options.output) return;
-  draw(*options.output, options.profile ? profile_drawing(trials) : work_precision_drawing(trials, drawn));
+  if (options.output) draw(*options.output, chart_drawing(options, trials, drawn));
 }
 
 /// A table that --data wrote is drawn as it is.
@@ -225,7 +228,7 @@ Exit make_chart(const ChartOptions& options) {
     if (is_table(options)) {
       if (!options.output) throw InvalidInput("a table of numbers is drawn; add --output F.svg");
       read_file(options.files.front());  // says what is wrong with the path
-      draw(*options.output, work_precision_drawing(read_chart_csv(options.files.front()), drawn));
+      draw(*options.output, chart_drawing(options, read_chart_csv(options.files.front()), drawn));
       return Exit::solved;
     }
     if (options.files.empty() && !options.settings.empty())

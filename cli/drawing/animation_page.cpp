@@ -165,8 +165,12 @@ function arrow(x, y, dx, dy, name) {
 }
 
 function drawSliders(frame) {
-  const count = Math.min(mostSliders, motion.coordinates.length), left = 140, right = canvas.width - 150;
+  const count = Math.min(mostSliders, motion.coordinates.length), right = canvas.width - 150;
   pen.font = "14px system-ui, sans-serif";
+  const widest = Math.max(...motion.coordinates.slice(0, count).map((name) => pen.measureText(name).width));
+  const left = Math.min(Math.max(140, widest + 30), canvas.width / 2);
+  pen.fillStyle = "#222";
+  if (count < motion.coordinates.length) pen.fillText("the first " + count + " of " + motion.coordinates.length + " coordinates", 10, 16);
   for (let i = 0; i < count; ++i) {
     const y = 30 + i * Math.min(60, (canvas.height - 120) / count), range = high[i] - low[i];
     const x = range > 0 ? left + (right - left) * (frame.values[i] - low[i]) / range : (left + right) / 2;
@@ -181,7 +185,7 @@ function drawSliders(frame) {
     pen.arc(x, y, 8, 0, 2 * Math.PI);
     pen.fill();
     pen.fillStyle = "#222";
-    pen.fillText(motion.coordinates[i], 10, y + 5);
+    pen.fillText(motion.coordinates[i], 10, y + 5, left - 30);
     pen.fillText(frame.values[i].toPrecision(5), right + 20, y + 5);
   }
 }

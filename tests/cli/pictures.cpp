@@ -314,6 +314,17 @@ TEST_CASE("the map of failures has a digit or a mark in each cell, and its words
   CHECK(digits >= right);
 }
 
+TEST_CASE("the numbers of a chart that are kept are drawn as performance profiles too") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string table = tests::source_folder() + "docs/charts/speed_accuracy.csv",
+                    picture = folder.path("a.svg");
+  CHECK(run({"chart", table, "--profile", "--output", picture}).code == 0);
+  const std::string svg = picture_bytes(picture);
+  check_legible(svg);
+  CHECK(svg.find("Performance profiles over 11 problems") != std::string::npos);
+}
+
 TEST_CASE("in the chart that is kept no two words overlap, and none leaves the page") {
   check_legible(picture_bytes(tests::source_folder() + "docs/charts/speed_accuracy.svg"));
 }
