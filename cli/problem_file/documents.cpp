@@ -52,13 +52,31 @@ TomlValue rows_value(const std::vector<std::vector<std::string>>& rows) {
   return list;
 }
 
-std::vector<std::vector<std::string>> digits_of(const convex::Matrix& M) {
-  std::vector<std::vector<std::string>> rows;
-  for (Index i = 0; i < M.rows(); ++i) {
-    rows.emplace_back();
-    for (Index j = 0; j < M.cols(); ++j) rows.back().push_back(fmt::format("{}", M(i, j)));
+using Digits = std::vector<std::vector<std::string>>;
+
+/// Puts the numbers of matrix files in the place of their names, where `are_chosen` says so of a file and the
+/// size that it is to have.
+void write_out(TomlValue& document, const std::string& directory,
+               bool (*are_chosen)(const std::string& path, Index rows, Index columns)) {
+  for (TomlEntry& content : document.table) {
+    const TomlValue* z = content.value.find("z");
+    if (z == nullptr || z->kind != TomlValue::Kind::array) continue;
+    const auto n = static_cast<Index>(z->array.size());
+    for (TomlEntry& entry : content.value.table) {
+      const TomlValue* file = entry.value.find("matrix_market");
+      if (file == nullptr) continue;
+      const Index rows = entry.key == "U" ? -1 : n;
+      try {
+        const std::string path = matrix_file(*file, entry.key, directory);
+        if (!are_chosen(path, rows, n)) continue;
+        TomlValue numbers = rows_value(read_matrix_digits(path, rows, n));
+        numbers.place = file->place;
+        entry.value = std::move(numbers);
+      } catch (const InvalidInput& error) {
+        throw InvalidInput(error.place() ? error.what() : entry.key + ": " + error.what(), file->place);
+      }
+    }
   }
-  return rows;
 }
 
 convex::SparseRows column_of(const convex::Vector& x) {
@@ -124,36 +142,32 @@ TomlValue read_matrix_folder(const std::string& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw InvalidInput("no folder of Matrix Market files; give one with A.mtx, z.mtx, U.mtx and s.mtx");
-  const convex::Matrix z = read_matrix_market(folder + "/z.mtx", -1, 1);
-  const convex::Matrix A = read_matrix_market(folder + "/A.mtx", z.rows(), z.rows());
-  convex::Matrix U(0, z.rows()), s(0, 1), two_sided(0, 1);
-  if (fs::exists(folder + "/U.mtx", error)) U = read_matrix_market(folder + "/U.mtx", -1, z.rows());
-  if (fs::exists(folder + "/s.mtx", error)) s = read_matrix_market(folder + "/s.mtx", U.rows(), 1);
+  const Digits z = read_matrix_digits(folder + "/z.mtx", -1, 1);
+  const auto n = static_cast<Index>(z.size());
+  const Digits A = read_matrix_digits(folder + "/A.mtx", n, n);
+  Digits U, s;
+  convex::Matrix two_sided(0, 1);
+  if (fs::exists(folder + "/U.mtx", error)) U = read_matrix_digits(folder + "/U.mtx", -1, n);
+  if (fs::exists(folder + "/s.mtx", error))
+    s = read_matrix_digits(folder + "/s.mtx", static_cast<Index>(U.size()), 1);
   if (fs::exists(folder + "/two_sided.mtx", error))
     two_sided = read_matrix_market(folder + "/two_sided.mtx", -1, 1);
   std::vector<std::size_t> rows;
   for (Index k = 0; k < two_sided.rows(); ++k) rows.push_back(static_cast<std::size_t>(two_sided(k, 0)));
-  const auto column = [](const convex::Matrix& M) {
+  const auto column = [](const Digits& M) {
     std::vector<std::string> numbers;
-    for (Index i = 0; i < M.rows(); ++i) numbers.push_back(fmt::format("{}", M(i, 0)));
+    for (const auto& row : M) numbers.push_back(row.front());
     return numbers;
   };
-  return projection_document(digits_of(A), column(z), digits_of(U), column(s), rows);
+  return projection_document(A, column(z), U, column(s), rows);
 }
 
 void write_matrices_out(TomlValue& document, const std::string& directory) {
-  for (TomlEntry& content : document.table) {
-    const TomlValue* z = content.value.find("z");
-    if (z == nullptr || z->kind != TomlValue::Kind::array) continue;
-    const auto n = static_cast<Index>(z->array.size());
-    for (TomlEntry& entry : content.value.table) {
-      const TomlValue* file = entry.value.find("matrix_market");
-      if (file == nullptr) continue;
-      const Index rows = entry.key == "U" ? -1 : n;
-      entry.value =
-          rows_value(digits_of(convex::Matrix(read_matrix_file(*file, entry.key, directory, rows, n))));
-    }
-  }
+  write_out(document, directory, [](const std::string&, Index, Index) { return true; });
+}
+
+void write_long_integers_out(TomlValue& document, const std::string& directory) {
+  write_out(document, directory, holds_long_integers);
 }
 
 void write_file(const std::string& file, const std::string& text) {

@@ -35,6 +35,8 @@ void write_matrix_folder(const TomlValue& document, const std::string& folder);
 
 /// Puts the numbers of matrix files, which are looked for in `directory`, in the place of their names.
 void write_matrices_out(TomlValue& document, const std::string& directory);
+/// Those alone that hold integers which are no doubles: a document has them exactly.
+void write_long_integers_out(TomlValue& document, const std::string& directory);
 
 /// The same of numbers.
 void write_problem_folder(const convex::NearestPointProblem&, const std::string& folder);

@@ -1,5 +1,6 @@
 #include "cli/problem_file/exact_number.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/exact/fraction.hpp"
@@ -14,15 +15,24 @@ std::optional<double> nearest_double(const std::string& text) {
   return convex::nearest_double(*value);
 }
 
+bool is_double(const TomlValue& value) {
+  if (value.kind == TomlValue::Kind::array)
+    return std::all_of(value.array.begin(), value.array.end(), is_double);
+  constexpr double first_gap = 0x1p53;  // below, all integers are doubles
+  const bool is_long = value.kind == TomlValue::Kind::integer && std::abs(value.number) >= first_gap;
+  if (!is_long && !value.is_string()) return true;
+  const auto meant = convex::read_fraction(value.text);
+  if (!meant) return true;  // no number: others say so
+  const double number = convex::nearest_double(*meant);
+  return std::isfinite(number) && convex::fraction(number) == *meant;
+}
+
 void require_doubles(const TomlValue& value, const std::string& where, const std::string& form) {
   for (const TomlValue& entry : value.array) require_doubles(entry, where, form);
   for (const TomlEntry& entry : value.table) require_doubles(entry.value, where, form);
-  if (!value.is_string()) return;
-  const auto meant = convex::read_fraction(value.text);
-  if (!meant) return;
-  const double number = convex::nearest_double(*meant);
-  if (std::isfinite(number) && convex::fraction(number) == *meant) return;
-  throw convex::InvalidInput(where + ": \"" + value.text + "\" is no double, and " + form +
+  if (is_double(value)) return;
+  const std::string quote = value.is_string() ? "\"" : "";
+  throw convex::InvalidInput(where + ": " + quote + value.text + quote + " is no double, and " + form +
                                  " has doubles alone; write the one that is meant",
                              value.place);
 }

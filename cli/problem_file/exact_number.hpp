@@ -12,8 +12,11 @@ namespace cli::inline problem_files {
 /// is beyond all doubles; none when the text is not a number or the denominator is 0.
 std::optional<double> nearest_double(const std::string& text);
 
-/// Throws InvalidInput where a number in quotes, in a list or lists of them, is no double: files of this form
-/// have doubles alone.
+/// Whether each number of a value, or of a list or lists, is the double that is read for it: an integer
+/// beyond 2^53 may be none, nor what stands in quotation marks.
+bool is_double(const TomlValue& value);
+
+/// Throws InvalidInput where a number of a list or lists is no double: files of this form have doubles alone.
 void require_doubles(const TomlValue& value, const std::string& where, const std::string& form);
 
 }  // namespace cli::inline problem_files

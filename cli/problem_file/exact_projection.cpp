@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cli/problem_file/exact_number.hpp"
 #include "cli/problem_file/numbers.hpp"
 #include "convex/exact/positive_definite.hpp"
 #include "convex/nearest_point/solution.hpp"
@@ -12,18 +13,6 @@ namespace {
 
 using convex::ExactRows;
 using convex::Index;
-
-bool is_double(const TomlValue& value) {
-  if (value.kind == TomlValue::Kind::integer) {
-    constexpr double largest_exact = 0x1p53;
-    return std::abs(value.number) <= largest_exact;
-  }
-  if (value.is_string()) {
-    const auto exact = convex::read_fraction(value.text);
-    return exact && *exact == convex::fraction(convex::nearest_double(*exact));
-  }
-  return std::all_of(value.array.begin(), value.array.end(), is_double);
-}
 
 bool is_symmetric(const std::vector<TomlValue>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i)

@@ -1,20 +1,43 @@
 #include "cli/problem_file/matrix_market.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "cli/problem_file/problem.hpp"
+#include "convex/exact/fraction.hpp"
+#include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
+
+struct LongInteger {
+  Index row, column;
+  convex::Fraction value;
+};
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+std::string without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t+");
+  return std::string(text.substr(std::min(first, text.size())));
+}
 
 class Reader {
  public:
@@ -28,10 +51,7 @@ class Reader {
   }
 
   convex::SparseMatrix read() {
-    std::string first(next_line());
-    std::transform(first.begin(), first.end(), first.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    std::istringstream header(first);
+    std::istringstream header(lower_case(next_line()));
     std::string banner, object, format, field, symmetry;
     header >> banner >> object >> format >> field >> symmetry;
     const bool coordinate = format == "coordinate";
@@ -56,9 +76,17 @@ class Reader {
     std::vector<Eigen::Triplet<double>> entries;
     // A line has six characters at least: a wrong count asks for no more than that.
     entries.reserve(std::min(static_cast<std::size_t>(count), text_.size() / 6 + 1) * (symmetric ? 2 : 1));
-    const auto put = [&](Index i, Index j, double value) {
+    const auto put = [&](Index i, Index j) {
+      const std::size_t first = place_;
+      const double value = number();
       entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
       if (symmetric && i != j) entries.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
+      constexpr double first_gap = 0x1p53;  // below, all integers are doubles
+      if (field != "integer" || !(std::abs(value) >= first_gap)) return;
+      const auto exact = convex::read_fraction(without_blanks(current_.substr(first, place_ - first)));
+      if (!exact || *exact == convex::fraction(value)) return;
+      long_integers_.push_back({i, j, *exact});
+      if (symmetric && i != j) long_integers_.push_back({j, i, *exact});
     };
     if (coordinate) {
       bool has_lower = false, has_upper = false;
@@ -69,14 +97,14 @@ class Reader {
         (i > j ? has_lower : has_upper) |= i != j;
         if (symmetric && has_lower && has_upper)
           fail("an entry on the other side of the diagonal; a symmetric matrix lists one triangle");
-        put(i, j, number());
+        put(i, j);
         end_line();
       }
     } else {
       for (Index j = 0; j < columns; ++j)
         for (Index i = symmetric ? j : 0; i < rows; ++i) {
           start(next_line());
-          put(i, j, number());
+          put(i, j);
           end_line();
         }
     }
@@ -88,6 +116,9 @@ class Reader {
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   }
+
+  /// Those that are no doubles, after `read`.
+  const std::vector<LongInteger>& long_integers() const { return long_integers_; }
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
@@ -144,12 +175,47 @@ class Reader {
   std::size_t at_ = 0, place_ = 0;
   int line_ = 0;
   Index expected_rows_, expected_columns_;
+  std::vector<LongInteger> long_integers_;
 };
 
 }  // namespace
 
 convex::SparseMatrix read_matrix_market(const std::string& path, Index rows, Index columns) {
   return Reader(path, rows, columns).read();
+}
+
+std::vector<std::vector<std::string>> read_matrix_digits(const std::string& path, Index rows, Index columns) {
+  Reader reader(path, rows, columns);
+  const convex::Matrix M = reader.read();
+  std::vector<std::vector<std::string>> digits(static_cast<std::size_t>(M.rows()));
+  for (Index i = 0; i < M.rows(); ++i)
+    for (Index j = 0; j < M.cols(); ++j)
+      digits[static_cast<std::size_t>(i)].push_back(fmt::format("{}", M(i, j)));
+  for (const LongInteger& entry : reader.long_integers())
+    digits[static_cast<std::size_t>(entry.row)][static_cast<std::size_t>(entry.column)] =
+        entry.value.numerator.text();
+  return digits;
+}
+
+bool holds_long_integers(const std::string& path, Index rows, Index columns) {
+  std::ifstream file(path);
+  std::string first;
+  std::getline(file, first);
+  if (lower_case(first).find("integer") == std::string::npos) return false;
+  std::optional<Reader> reader;
+  convex::SparseMatrix M;
+  try {
+    M = reader.emplace(path, rows, columns).read();
+  } catch (const convex::InvalidInput&) {
+    return false;  // the reader of the problem says so
+  }
+  if (reader->long_integers().empty()) return false;
+  constexpr Index most_entries = 10'000'000;
+  if (M.rows() > 0 && M.cols() > most_entries / M.rows())
+    throw convex::InvalidInput(
+        path + ": " + reader->long_integers().front().value.numerator.text() +
+        " is no double, and a matrix of this size has doubles alone; write the one that is meant");
+  return true;
 }
 
 }  // namespace cli::inline problem_files

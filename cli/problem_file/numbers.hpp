@@ -19,8 +19,9 @@ convex::Vector read_vector(const TomlValue& value, const std::string& where);
 convex::RowMatrix read_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
                               const std::string& why);
 
-/// The same at their exact values: "1/3" is a third, 0.1 the double nearest to it. A string beyond all
-/// doubles, or nearer to 0 than all but 0, is refused.
+/// The same at their exact values: "1/3" is a third, a whole number itself, 0.1 the double nearest to it. A
+/// string beyond all doubles, or nearer to 0 than all but 0, is refused.
+convex::Fraction read_exact_number(const TomlValue& value, const std::string& where);
 convex::ExactVector read_exact_vector(const TomlValue& value, const std::string& where);
 convex::ExactRows read_exact_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
                                     const std::string& why);

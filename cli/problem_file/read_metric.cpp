@@ -13,13 +13,6 @@ using convex::Index;
 using convex::InvalidInput;
 using convex::Metric;
 
-std::string matrix_file(const TomlValue& value, const std::string& where, const std::string& directory) {
-  const std::string& name = require_string(value, where + ".matrix_market");
-  if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }))
-    throw InvalidInput(where + ": a file name with control characters; name the matrix file", value.place);
-  return name.empty() || name[0] == '/' || directory.empty() ? name : directory + "/" + name;
-}
-
 Metric from_rows(const TomlValue& value, const MetricKey& key) {
   const convex::RowMatrix W = read_matrix(value, key.key, key.n, key.why);
   if (W.rows() != key.n)
@@ -51,6 +44,18 @@ Metric from_table(const TomlValue& value, const MetricKey& key) {
   return key.n <= small && W.nonZeros() > key.n ? Metric::dense(convex::Matrix(W)) : Metric::sparse(W);
 }
 
+/// Throws where a number of the diagonal is 0 as a double alone.
+void refuse_lost_diagonal(const TomlValue& value, const MetricKey& key) {
+  const TomlValue* diagonal = value.find("diagonal");
+  for (std::size_t i = 0; i < static_cast<std::size_t>(key.n); ++i) {
+    const std::string place = "[" + std::to_string(i) + "]";
+    if (value.kind == TomlValue::Kind::array)
+      read_exact_number(value.array[i].array[i], key.key + place + place);
+    else if (diagonal != nullptr)
+      read_exact_number(diagonal->array[i], key.key + ".diagonal" + place);
+  }
+}
+
 }  // namespace
 
 Metric read_metric(const TomlValue& value, const MetricKey& key) {
@@ -58,8 +63,16 @@ Metric read_metric(const TomlValue& value, const MetricKey& key) {
     return value.kind == TomlValue::Kind::table ? from_table(value, key) : from_rows(value, key);
   } catch (const InvalidInput& error) {
     if (error.place()) throw;
+    refuse_lost_diagonal(value, key);
     throw InvalidInput(metric_message(error.what(), key.key), value.place);
   }
+}
+
+std::string matrix_file(const TomlValue& file, const std::string& where, const std::string& directory) {
+  const std::string& name = require_string(file, where + ".matrix_market");
+  if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }))
+    throw InvalidInput(where + ": a file name with control characters; name the matrix file", file.place);
+  return name.empty() || name[0] == '/' || directory.empty() ? name : directory + "/" + name;
 }
 
 convex::SparseMatrix read_matrix_file(const TomlValue& file, const std::string& where,

@@ -25,6 +25,9 @@ convex::SparseMatrix read_matrix_file(const TomlValue& file, const std::string& 
                                       const std::string& directory, convex::Index rows,
                                       convex::Index columns);
 
+/// The path of a matrix file that a problem file in `directory` names.
+std::string matrix_file(const TomlValue& file, const std::string& where, const std::string& directory);
+
 /// What `Metric` has against a matrix, in the words of the one who gave it: it is called A there, and is an
 /// inertia.
 std::string metric_message(const std::string& message, const std::string& where);

@@ -2,6 +2,7 @@
 #include <array>
 #include <memory>
 
+#include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/exact_projection.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/problem.hpp"
@@ -42,7 +43,8 @@ Problem read_problem(const std::string& text, const std::string& directory) {
 }
 
 Problem read_problem(const TomlValue& given, const std::string& directory) {
-  const auto kept = std::make_shared<const TomlValue>(given);
+  const auto kept = std::make_shared<TomlValue>(given);
+  write_long_integers_out(*kept, directory);
   const TomlValue& document = *kept;
   require_known_keys(document, "",
                      {"title", "system", "state", "projection", "decomposition", "cone", "liquid", "solve",

@@ -215,3 +215,63 @@ TEST_CASE("an A of doubles definite by one unit in the last place is solved, a s
   for (const char* singular : {"1", "0.9999999999999999"})
     CHECK(solve_by("exact", A(singular), "[1, 2]", "3").code == 2);
 }
+
+TEST_CASE("whole numbers are exact however long they are, wherever they are written") {
+  const std::string rows = "[projection]\nA = [[1]]\nz = [0]\nU = [[1], [-1]]\ns = ";
+  const std::string apart = rows + "[9007199254740993, -9007199254740992]\n";
+  const Outcome contradiction = run_json_on("solve", apart);
+  CHECK(contradiction.code == 1);
+  CHECK(Json::parse(contradiction.out).at("farkas") == Json{{"c[0]", 1}, {"c[1]", 1}});
+  for (const std::string option : {"--certify", "--method=exact"})
+    CHECK(run({"solve", option, "-"}, apart).code == 1);
+
+  const auto acceleration = [](const std::vector<std::string>& arguments, const std::string& text) {
+    std::vector<std::string> command{"solve", "--json", "--method", "exact"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run(command, text);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code < 2);
+    return Json::parse(outcome.out).at("exact").at("acceleration").at("q[0]").get<std::string>();
+  };
+  const std::string free = "[projection]\nA = [[1]]\nz = [";
+  CHECK(acceleration({"-"}, free + "9007199254740993]\n") == "9007199254740993");
+  CHECK(acceleration({"-"}, free + "0x20000000000001]\n") == "9007199254740993");
+  CHECK(acceleration({"--set", "projection.z[0]=9007199254740993", "-"}, free + "0]\n") ==
+        "9007199254740993");
+  CHECK(acceleration({"-"}, R"({"projection": {"A": [[1]], "z": [100000000000000000000000001]}})") ==
+        "100000000000000000000000001");
+  // Floats are the doubles nearest to them.
+  CHECK(acceleration({"-"}, free + "9007199254740993.0]\n") == "9007199254740992");
+
+  const Folder folder;
+  const std::string header = "%%MatrixMarket matrix coordinate ",
+                    one = " general\n1 1 1\n1 1 9007199254740993\n";
+  folder.write("whole.mtx", header + "integer" + one);
+  folder.write("real.mtx", header + "real" + one);
+  const auto quotient = [&](const std::string& matrix, const std::string& text) {
+    return acceleration({folder.write("p.toml", "[projection]\n" + text)}, "") ==
+           (matrix == "whole.mtx" ? "1" : "9007199254740993/9007199254740992");
+  };
+  for (const std::string matrix : {"whole.mtx", "real.mtx"}) {
+    CAPTURE(matrix);
+    const std::string named = "{ matrix_market = \"" + matrix + "\" }\n";
+    CHECK(quotient(matrix, "z = [9007199254740993]\nA = " + named));
+    CHECK(quotient(matrix, "A = [[1]]\nz = [0]\ns = [9007199254740993]\nU = " + named));
+  }
+  // What has doubles alone refuses others.
+  const Outcome refused =
+      run({"convert", folder.write("z.toml", free + "9007199254740993]\n"), folder.path("z.mtx")});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("9007199254740993 is no double") != std::string::npos);
+}
+
+TEST_CASE("a folder of matrix files of integers has them exactly") {
+  const Folder folder;
+  const std::string header = "%%MatrixMarket matrix array integer general\n1 1\n";
+  folder.write("z.mtx", header + "9007199254740993\n");
+  folder.write("A.mtx", header + "1\n");
+  const Outcome outcome = run({"solve", "--json", "--method", "exact", folder.path("")});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code < 2);
+  CHECK(Json::parse(outcome.out).at("exact").at("acceleration").at("q[0]") == "9007199254740993");
+}

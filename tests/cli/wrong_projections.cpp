@@ -57,6 +57,11 @@ TEST_CASE("a number too large for a double is called too large") {
   expect_refusal({z("[0, \"1e999999999999\"]"), "3:9", {"z[1]", "too large"}});
 }
 
+TEST_CASE("an entry of A too small for a double is called too small, not 0") {
+  expect_refusal({A("[[\"1e-1000\", 0], [0, 1]]"), "2:7", {"A[0][0]", "1e-1000", "too small"}});
+  expect_refusal({A("{ diagonal = [1, \"1/1e1000\"] }"), "2:22", {"A.diagonal[1]", "too small"}});
+}
+
 TEST_CASE("A by two descriptions, or by none, is refused") {
   expect_refusal(
       {A("{ diagonal = [1, 1], matrix_market = \"A.mtx\" }"), "2:5", {"diagonal", "matrix_market"}});
