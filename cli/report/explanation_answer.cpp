@@ -174,11 +174,9 @@ void explain_answer(Document& document, const SolvedScene& solved) {
     blocks.emplace_back(Heading{"No acceleration is allowed"});
     Line line{"The contacts contradict each other: in the sum of "};
     const Vector& w = solved.solution.primal.farkas;
-    double sum = 0;
     bool first = true;
     for (Index row = 0; row < w.size(); ++row) {
       if (w[row] == 0) continue;
-      sum += w[row] * scene.problem.s[row];
       line.emplace_back(std::string(first ? "" : ", "));
       line.emplace_back(number_math(w[row]));
       line.emplace_back(std::string(" times "));
@@ -186,7 +184,7 @@ void explain_answer(Document& document, const SolvedScene& solved) {
       first = false;
     }
     line.emplace_back(std::string(" the accelerations cancel, and what is left reads 0 >= "));
-    line.emplace_back(number_math(sum));
+    line.emplace_back(number_math(left_of_contradiction(solved)));
     line.emplace_back(std::string(" (Farkas)."));
     blocks.emplace_back(Paragraph{std::move(line)});
     return;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "convex/exact/fraction.hpp"
+#include "convex/exact/fraction_arithmetic.hpp"
 #include "mechanics/evaluation_error.hpp"
 #include "mechanics/near_contact.hpp"
 
@@ -46,6 +48,31 @@ SolvedScene solved_scene(const Scene& scene, const mechanics::GaussSolution& sol
     solved.closed_by_tolerance =
         mechanics::closed_by_tolerance(*scene.written, {scene.contacts, *scene.rates});
   return solved;
+}
+
+double left_of_contradiction(const SolvedScene& solved) {
+  using convex::Fraction;
+  const Scene& scene = solved.scene;
+  const convex::Vector& w = solved.solution.primal.farkas;
+  const convex::IntegerVector& proved = solved.exact != nullptr ? solved.exact->primal.farkas : solved.farkas;
+  const bool is_proved = !proved.empty() && proved.size() == static_cast<std::size_t>(w.size());
+  std::optional<convex::ExactProblem> written;
+  if (!scene.written && !scene.exact.are_doubles) written = scene.exact.make();
+  std::vector<Fraction> weights, s;
+  std::size_t largest = 0;
+  for (convex::Index row = 0; row < w.size(); ++row) {
+    if (w[row] == 0) continue;
+    const auto a = static_cast<std::size_t>(row);
+    weights.push_back(is_proved ? Fraction{proved[a], 1} : convex::fraction(w[row]));
+    s.push_back(written ? Fraction{written->s[a], written->row_unit[a]}
+                        : convex::fraction(scene.problem.s[row]));
+    if (std::abs(w[row]) > std::abs(w[static_cast<convex::Index>(largest)])) largest = a;
+  }
+  const Fraction sum = dot(convex::exact_vector(weights), convex::exact_vector(s));
+  if (!is_proved) return convex::nearest_double(sum);
+  // Integers that proved it are printed in a size that doubles hold.
+  const Fraction printed = convex::fraction(w[static_cast<convex::Index>(largest)]);
+  return convex::nearest_double(sum * printed / Fraction{proved[largest], 1});
 }
 
 const char* name(ConstraintState state) {

@@ -56,6 +56,9 @@ std::optional<double> count_evaluation_error(const Scene&, mechanics::GaussSolut
 
 SolvedScene solved_scene(const Scene&, const mechanics::GaussSolution&, double seconds);
 
+/// w·s of the weights that prove a contradiction, for the numbers as written.
+double left_of_contradiction(const SolvedScene&);
+
 /// Adds what is to be said of a mechanism beside `singular` states: contacts that are nearly there, contacts
 /// that only touch, and an edge between branches.
 void add_contact_warnings(SolvedScene&);

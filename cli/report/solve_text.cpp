@@ -9,7 +9,6 @@
 #include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
-#include "convex/double_double.hpp"
 #include "convex/exact/ball.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/exact_gauss_solution.hpp"
@@ -297,19 +296,14 @@ std::string accuracy_text(const SolvedScene& solved) {
 std::string infeasible_text(const SolvedScene& solved) {
   const convex::Vector& w = solved.solution.primal.farkas;
   std::vector<std::string> parts;
-  convex::DoubleDouble sum{0, 0};  // rows may contradict each other by less than a rounding of w·s
-  // Halves of numbers near the end of doubles are formed in units of w and of s.
-  const auto unit = [](const convex::Vector& x) { return x.cwiseAbs().maxCoeff() > 0x1p900 ? 0x1p300 : 1.0; };
-  const double of_w = unit(w), of_s = unit(solved.scene.problem.s);
   for (Index row = 0; row < w.size(); ++row) {
     if (w[row] == 0) continue;
     parts.push_back(fmt::format("{} times {}", number_text(w[row]), solved.scene.contact_name(row)));
-    sum = add(sum, convex::two_product(w[row] / of_w, solved.scene.problem.s[row] / of_s));
   }
   return fmt::format(
       "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
       "left reads 0 >= {} (Farkas).{}\n",
-      listed(parts), number_text(sum.value() * of_w * of_s),
+      listed(parts), number_text(left_of_contradiction(solved)),
       !is_proved(solved.certificate)                           ? ""
       : solved.certificate->level == convex::ProofLevel::exact ? " Proved in fractions."
                                                                : " Proved with bounds on every rounding.");

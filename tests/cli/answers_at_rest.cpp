@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -31,4 +33,21 @@ TEST_CASE("what is left of a contradiction below the rounding of its terms is to
   CAPTURE(outcome.out);
   CHECK(outcome.code == 1);
   CHECK(outcome.out.find("what is left reads 0 >= 5.55112e-17 (Farkas)") != std::string::npos);
+}
+
+TEST_CASE("what is left of a contradiction of fractions is told by these, not by their doubles") {
+  const std::string rows =
+      "[projection]\nA = [[1]]\nz = [0]\nU = [[1], [-1]]\n"
+      "s = [\"9007199254740993\", \"-9007199254740992\"]\n";
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"solve", "-"},
+                                             {"solve", "--method", "exact", "-"},
+                                             {"solve", "--certify", "-"},
+                                             {"explain", "-"}}) {
+    CAPTURE(command[1]);
+    std::string told = run(command, rows).out;
+    std::replace(told.begin(), told.end(), '\n', ' ');
+    CAPTURE(told);
+    CHECK(told.find("what is left reads 0 >= 1 (Farkas)") != std::string::npos);
+  }
 }
