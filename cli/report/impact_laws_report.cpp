@@ -127,8 +127,9 @@ std::string impact_laws_text(const FollowedMotion& followed) {
   for (std::size_t a = 0; a < contacts.size(); ++a)
     add("P of " + contacts[a], "",
         [&](const ImpactOutcome& outcome) { return outcome.impulse[static_cast<Index>(a)]; });
-  add("T", number_text(scene->kinetic),
-      [&](const ImpactOutcome& outcome) { return kinetic_after(*scene, outcome); });
+  add("T", number_text(scene->kinetic), [&](const ImpactOutcome& outcome) {
+    return without_rounding(kinetic_after(*scene, outcome), scene->kinetic);
+  });
   return text + table.text() + (said.empty() ? "" : "\n" + said);
 }
 

@@ -11,7 +11,7 @@ constexpr long most_strokes = 100'000;
 
 /// A contact closes no longer when its rate is what so many roundings leave of all that it was the sum of.
 /// Two contacts close alike when their speeds differ by no more than that, and one does not change the rate
-/// of another by less than so many roundings of the norms in its product.
+/// of another by less than so many roundings of what the change is the sum of.
 constexpr double roundings_of_stroke = 64;
 /// What has not come to rest after all strokes, but to this part, goes to its limit.
 constexpr double nearly_at_rest = 1e-6;
@@ -40,9 +40,18 @@ Stroke stroke(const convex::Metric& A, const std::vector<ImpactContact>& contact
   found.change = answer.x;
   found.impulse = answer.lambda[held];
   found.impulse_two_sided = answer.lambda.head(held);
-  found.rates.resize(static_cast<Index>(contacts.size()));
-  for (std::size_t a = 0; a < contacts.size(); ++a)
-    found.rates[static_cast<Index>(a)] = contacts[a].two_sided ? 0 : contacts[a].u.dot(answer.x);
+  // x is the sum of A⁻¹u_b lambda_b, which may all but cancel along rows that the two-sided ones hold.
+  Vector moved = Vector::Zero(A.dimension());
+  for (Index b = 0; b <= held; ++b)
+    if (answer.lambda[b] != 0)
+      moved += std::abs(answer.lambda[b]) * A.solve(rows[static_cast<std::size_t>(b)]).cwiseAbs();
+  found.rates = Vector::Zero(static_cast<Index>(contacts.size()));
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const double rate = contacts[a].u.dot(answer.x);
+    const double by_rounding =
+        roundings_of_stroke * convex::unit_roundoff * contacts[a].u.cwiseAbs().dot(moved);
+    if (!contacts[a].two_sided && std::abs(rate) > by_rounding) found.rates[static_cast<Index>(a)] = rate;
+  }
   found.rates[static_cast<Index>(striking)] = 1;
   return found;
 }
@@ -80,9 +89,7 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
     return std::abs(speed(a) - speed(b)) <= by_rounding(i) / length[i] + by_rounding(j) / length[j];
   };
   const auto changes = [&](std::size_t a, std::size_t b) {
-    return std::abs(strokes[a].rates[static_cast<Index>(b)]) > roundings_of_stroke * convex::unit_roundoff *
-                                                                   length[static_cast<Index>(b)] *
-                                                                   A.norm(strokes[a].change);
+    return strokes[a].rates[static_cast<Index>(b)] != 0;
   };
   long count = 0;
   double worst = 0;
@@ -103,9 +110,10 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
     }
     const Stroke& by = strokes[striking];
     if (!by.is_possible) {
+      ImpactOutcome excluded;
       for (std::size_t a = 0; a < m; ++a)
-        if (contacts[a].two_sided || a == striking) outcome.excluding.push_back(static_cast<Index>(a));
-      return outcome;
+        if (contacts[a].two_sided || a == striking) excluded.excluding.push_back(static_cast<Index>(a));
+      return excluded;
     }
     const auto at = static_cast<Index>(striking);
     const double change = -(1 + contacts[striking].restitution) * outcome.rate[at];
@@ -121,8 +129,9 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
     outcome.rate[at] = after;
   }
   if (count == most_strokes && worst > nearly_at_rest * largest) {
-    outcome.undetermined = "the sequence of impacts, one contact at a time, has no end within 100000";
-    return outcome;
+    ImpactOutcome without_end;
+    without_end.undetermined = "the sequence of impacts, one contact at a time, has no end within 100000";
+    return without_end;
   }
   for (Index a = 0; a < outcome.rate.size(); ++a)
     if (outcome.rate[a] <= by_rounding(a)) outcome.rate[a] = 0;

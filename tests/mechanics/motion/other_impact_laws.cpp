@@ -130,3 +130,30 @@ TEST_CASE("rods written twice hold through an impact under every law as rods wri
     CHECK((found.change - expected.change).norm() <= 1e-13);
   }
 }
+
+TEST_CASE("a stroke moves nothing along rows that two-sided ones hold, by no rounding either") {
+  // The second contact is held by the third, twice over, from the side it may not leave and the other.
+  const Metric A = Metric::dense(Matrix{{6, 4}, {4, 6}});
+  for (const double side : {-2.0, 2.0, -1.0 / 3}) {
+    CAPTURE(side);
+    const ImpactOutcome found = impact(
+        A,
+        {{Vector{{-2, 2}}, -2, 0, false}, {Vector{{side, 0}}, 0, 0.75, false}, {Vector{{-1, 0}}, 0, 0, true}},
+        ImpactLaw::sequential);
+    CHECK(found.excluding.empty());
+    REQUIRE(found.change.size() == 2);
+    CHECK((found.change - Vector{{0, 1}}).norm() <= 1e-15);
+    CHECK(found.rate == Vector{{0, 0, 0}});
+    CHECK(found.impulse[1] == 0);
+  }
+}
+
+TEST_CASE("an impact without an outcome has no change of the velocity") {
+  // After the first stroke the second contact closes, which the third forbids to open.
+  const ImpactOutcome found =
+      impact(Metric::identity(2),
+             {{Vector{{0, 1}}, -3, 0, false}, {Vector{{1, 0}}, -1, 0, false}, {Vector{{1, 0}}, 0, 0, true}},
+             ImpactLaw::sequential);
+  CHECK(found.excluding == std::vector<Index>{1, 2});
+  CHECK(found.change.size() == 0);
+}
