@@ -59,6 +59,9 @@ Units fit_units(const convex::NearestPointProblem& problem) {
   const double force = largest(problem.z), bound = largest(problem.s);
   if (is_ordinary(mass) && is_ordinary(gradient) && is_ordinary(force) && is_ordinary(bound)) return {};
   Units units{power_near(mass), 1, power_near(gradient)};
+  // Of masses too far apart, the least would be 0.
+  if (mass > 0 && problem.A.diagonal().minCoeff() / units.mass < std::numeric_limits<double>::min())
+    units.mass = 1;
   // A bound that is none need not be near 1: it is to stay a double.
   constexpr double far = 0x1p-900;
   const double asked = std::max(force / units.mass, largest_asked(problem) / units.gradient);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/exact/rounding_bounds.hpp"
 #include "convex/infinity.hpp"
@@ -49,7 +50,11 @@ bool has_ordinary_numbers(const NearestPointProblem& problem) {
 CommonSize::CommonSize(const NearestPointProblem& original)
     : problem{original.A, original.z, {}, {}, {}, {}} {
   const Index m = original.rows();
-  mass = power_near(original.A.diagonal().size() > 0 ? original.A.diagonal().maxCoeff() : 0);
+  if (original.A.diagonal().size() > 0) {
+    mass = power_near(original.A.diagonal().maxCoeff());
+    // Of masses too far apart, the least would be 0.
+    if (original.A.diagonal().minCoeff() / mass < std::numeric_limits<double>::min()) mass = 1;
+  }
   if (mass != 1) problem.A = original.A.scaled(1 / mass);
   const Vector root = problem.A.diagonal().cwiseSqrt();
   Vector all_units(m), bound(m);

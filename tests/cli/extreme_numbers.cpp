@@ -213,3 +213,22 @@ TEST_CASE("a method that was named solves rightly, or says that it does not, whe
       CHECK(number(answer.at("residuals").at("feasibility")) <= 1e-9);
     }
 }
+
+TEST_CASE("an A whose masses are a power of 1e380 apart is called indefinite by no method") {
+  const Folder folder;
+  const std::string file = folder.write("p.toml", R"([projection]
+A = [[2.3866690339840662e-153, -6.80564733841877e+38], [-6.80564733841877e+38, 3.8812952307517723e+230]]
+z = [3.488120700934677e-105, 1.9892929456391466e+87]
+U = [[0.0, 0.0], [-1.0363402266113334e-76, 3.940200619639448e+115]]
+s = [0.0, 0.0]
+)");
+  for (const char* method : {"auto", "active-set", "nnls", "lemke", "block-pivoting", "enumerate",
+                             "semismooth-newton", "proximal-point", "interior-point", "admm",
+                             "accelerated-gradient", "projected-gauss-seidel", "drop-negative", "exact"}) {
+    CAPTURE(method);
+    const Outcome outcome = run({"solve", "--method", method, file});
+    CAPTURE(outcome.err);
+    CHECK((outcome.code == 0 || outcome.code == 3));
+    CHECK(outcome.err.find("not positive") == std::string::npos);
+  }
+}
