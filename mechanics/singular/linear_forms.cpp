@@ -10,10 +10,10 @@ namespace mechanics::inline singular_states {
 using expression::Rounded;
 using expression::TimeSeries;
 
-/// The rows of the Hessian H of a constraint whose gradient vanishes, at a state where f = 0 is q in q_0 + N,
-/// N the null space of H: H is semidefinite, and f and its gradient are 0 at points of q_0 + N chosen at
-/// random and at other times, hence on all of it for an analytic f. Across N f is then like the square of a
-/// length (the Morse-Bott lemma), and vanishes nowhere else nearby. Empty elsewhere.
+/// The rows of the Hessian H of a constraint whose gradient vanishes, at a state where f = 0 is q in
+/// q_0 + v (t - t_0) + N, N the null space of H: H is semidefinite, and f and its gradient are 0 at points
+/// chosen at random there, at other times, hence on all of it for an analytic f. Across N f is then like the
+/// square of a length (the Morse-Bott lemma), and vanishes nowhere else nearby. Empty elsewhere.
 std::vector<AddedRow> SingularGroup::linear_forms(const Dependence& dependence) const {
   constexpr std::size_t most_columns = 60;
   const std::size_t n = columns_.size();
@@ -21,13 +21,15 @@ std::vector<AddedRow> SingularGroup::linear_forms(const Dependence& dependence) 
   if (!dependence.vanishes || n > most_columns) return {};
   const auto along_line = [&](const Vector& move, const Vector& direction, double later) {
     std::vector<TimeSeries> q(static_cast<std::size_t>(state_.q.size()));
+    const double t = state_.t + later;
+    const Rounded passed = Rounded(t) - Rounded(state_.t);
     for (std::size_t i = 0; i < n; ++i) {
       const auto k = static_cast<Index>(i);
       TimeSeries& own = q[static_cast<std::size_t>(columns_[i])];
-      own.c[0] = place(k) + Rounded(move[k] * unit_[k]);
+      own.c[0] = place(k) + Rounded(state_.v[columns_[i]]) * passed + Rounded(move[k] * unit_[k]);
       own.c[1] = direction[k] * unit_[k];
     }
-    return series_.along(q, TimeSeries(state_.t + later), 2)[static_cast<std::size_t>(main)];
+    return series_.along(q, TimeSeries(t), 2)[static_cast<std::size_t>(main)];
   };
   const Vector nowhere = Vector::Zero(size);
   std::vector<std::vector<Rounded>> hessian(n, std::vector<Rounded>(n));

@@ -78,3 +78,18 @@ TEST_CASE("a constraint that holds at rest just where linear forms vanish is hel
           }).find("constraint other") != std::string::npos);
   }
 }
+
+TEST_CASE(
+    "a constraint that holds just where linear forms have the values of a uniform motion is held to these") {
+  const auto held = [](const char* constraint, double t, const Vector& q, const Vector& v) {
+    return answer(*particle({{"valley", constraint}}), State{t, q, v});
+  };
+  const Answer point = held("x^2 + (y - t)^2 = 0", 0, Vector{{0, 0}}, Vector{{0, 1}});
+  CHECK(point.resolution.added.size() == 2);
+  CHECK(is_near_power(point.q2(), Vector{{0, 0}}));
+  const Answer later =
+      held("(x + t/2)^2 + (y - 3*t)^2 + (y - 3*t)^4 = 0", 2, Vector{{-1, 6}}, Vector{{-0.5, 3}});
+  CHECK(is_near_power(later.q2(), Vector{{0, 0}}));
+  // A point that speeds up is followed by no uniform motion.
+  CHECK_FALSE(error_of([&] { held("x^2 + (y - t^2)^2 = 0", 1, Vector{{0, 1}}, Vector{{0, 2}}); }).empty());
+}
