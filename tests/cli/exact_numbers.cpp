@@ -258,6 +258,10 @@ TEST_CASE("whole numbers are exact however long they are, wherever they are writ
     CHECK(quotient(matrix, "z = [9007199254740993]\nA = " + named));
     CHECK(quotient(matrix, "A = [[1]]\nz = [0]\ns = [9007199254740993]\nU = " + named));
   }
+  const std::string program =
+      "NAME t\nROWS\n N f\n G a\n L b\nCOLUMNS\n x a 1\n x b 1\nRHS\n r a 9007199254740993\n"
+      " r b 9007199254740992\nBOUNDS\n FR d x\nQUADOBJ\n x x 1\nENDATA\n";
+  CHECK(run({"solve", folder.write("t.qps", program)}).code == 1);
   // What has doubles alone refuses others.
   const Outcome refused =
       run({"convert", folder.write("z.toml", free + "9007199254740993]\n"), folder.path("z.mtx")});
