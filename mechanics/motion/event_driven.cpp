@@ -21,6 +21,9 @@ constexpr double roundings_of_t = 8;
 /// f counts as 0 in an event of other contacts within so many roundings of what it is the sum of.
 constexpr double roundings_of_f = 16;
 
+/// A step is halved so often at most: at a start at t = 0 no rounding of the time ends that.
+constexpr int most_halvings = 200;
+
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
@@ -58,7 +61,11 @@ void Motion::EventDriven::begin(const State& at) {
   done.q = state.q;
   expansion_.note_reach(state.q);
   expansion_.set(state);
-  const std::vector<Index> switches = find_branches();
+  std::vector<Index> switches = find_branches();
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    if (const double argument = std::abs(expansion_.switch_argument(k)[0]);
+        argument > 0 && argument <= expansion_.rounding_of_argument(k))
+      switches.push_back(static_cast<Index>(k));
   std::vector<Index> touching;
   for (const Index a : found.present) {
     if (!is_two_sided(a)) {
@@ -242,7 +249,7 @@ void Motion::EventDriven::take_step(double until) {
   double tau = end;
   obstacle_.clear();
   for (int halvings = 0;; ++halvings) {
-    if (halvings > 0 && !(clock() + end > clock()))
+    if (halvings > most_halvings || (halvings > 0 && !(clock() + end > clock())))
       return stop("at t = " + number_text(state.t) + ": " +
                   (obstacle_.empty() ? "no step, however short, keeps the tolerance" : obstacle_) +
                   "; the motion ends here, or the expressions have to be written otherwise");

@@ -83,12 +83,14 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Index> branches_after_jump(const Switches& before);
   /// A new arc from here. In question: contacts that may persist, and switches at 0. Of contacts whose
   /// gradient vanishes, which are in question too, none can push: where one would have to, the motion stops.
-  void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches,
+  void begin_arc(const std::vector<Index>& contacts, std::vector<Index> switches,
                  const std::vector<Index>& without_gradient = {});
+  /// Appends to `at_zero` what is at 0 with the branches of the others.
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
-                                                  const std::vector<Index>& switches);
-  bool is_consistent(const std::vector<Index>& switches);
-  void follow_jumps(const std::vector<Index>& jumping, const std::vector<double>& before = {});
+                                                  std::vector<Index>& at_zero);
+  double sign_ahead(std::size_t k);
+  double terms_of_argument(std::size_t k, double tau) const;
+  void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
   /// is an impact, a separation, or the end, and nothing is left to do.
   bool meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);
@@ -101,9 +103,6 @@ class Motion::EventDriven final : public Motion::Course {
   bool has_kink_at(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   /// Why nothing is found that goes on.
   std::string obstacle_ahead(const std::vector<Index>& contacts, const std::vector<Index>& switches);
-  std::optional<ContactAnswer> answer_where_zero_stays(const ContactQuestion& question,
-                                                       const std::vector<Index>& switches,
-                                                       ContactAnswer beside);
   void continue_arc();
   void project();
   void fill_next();
@@ -114,6 +113,9 @@ class Motion::EventDriven final : public Motion::Course {
     acceleration.resize(0);
     multipliers.resize(0);
   }
+  /// Sums such as T - V and p, and the values that a series tells, lose digits; as long as half of them are
+  /// left, a difference of more is a jump.
+  static constexpr double half_the_digits = 0x1p-26;
   static constexpr double not_begun = std::numeric_limits<double>::quiet_NaN();
   Arc next;  ///< the one ahead of `state`; its t is not a number until it is begun
   Expansion expansion_;

@@ -12,14 +12,6 @@ namespace {
 /// Events within so many roundings of the time follow each other at one instant.
 constexpr double roundings_of_instant = 64;
 
-/// T - V and p are sums whose digits may cancel; as long as half of them are left, a difference of more is a
-/// jump.
-constexpr double half_the_digits = 0x1p-26;
-
-/// An argument at 0 is so within some roundings of its terms and of the time; one of so many has jumped off
-/// it.
-constexpr double jumped = 0x1p26;
-
 }  // namespace
 
 Motion::EventDriven::Switches Motion::EventDriven::switches_before_jump(
@@ -60,57 +52,6 @@ std::vector<Index> Motion::EventDriven::find_branches() {
     expansion_.set(state);
   }
   return at_zero;
-}
-
-/// Whether each argument at 0 goes on with the sign of its branch: by the first derivative that is not 0 but
-/// for rounding. Each order has its own scale: derivatives of a fast motion grow with their order.
-bool Motion::EventDriven::is_consistent(const std::vector<Index>& switches) {
-  for (const Index which : switches) {
-    const auto k = static_cast<std::size_t>(which);
-    const std::span<const double> c = expansion_.switch_argument(k);
-    const std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
-    // One that contains others at 0 may have jumped off it with them: by more than rounding and what it does
-    // on an arc.
-    const double length = last_length_ > 0 ? last_length_ : 1;
-    double farthest = jumped * by_rounding[0], power = 1;
-    for (std::size_t i = 1; i < c.size(); ++i)
-      farthest = std::max(farthest, std::abs(c[i]) * (power *= length) / jumped);
-    std::size_t first = std::abs(c[0]) > farthest ? 0 : 1;
-    while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) ++first;
-    if (first < c.size() && !(c[first] * expansion_.branch(k) > 0)) return false;
-    zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
-  }
-  return true;
-}
-
-/// Arguments that stay 0 on the arc: what contains them has its value at 0, sign(0) = 0, if it goes on so;
-/// else the answer with the branches beside it.
-std::optional<ContactAnswer> Motion::EventDriven::answer_where_zero_stays(const ContactQuestion& question,
-                                                                          const std::vector<Index>& switches,
-                                                                          ContactAnswer beside) {
-  const auto stays = [&](Index k) {
-    const auto at = static_cast<std::size_t>(k);
-    return zeros_of_switch_[at] == static_cast<int>(expansion_.switch_argument(at).size());
-  };
-  std::vector<Index> zeros;
-  std::vector<double> branches;
-  for (const Index k : switches)
-    if (stays(k)) {
-      zeros.push_back(k);
-      branches.push_back(expansion_.branch(static_cast<std::size_t>(k)));
-      expansion_.branch(static_cast<std::size_t>(k)) = 0;
-    }
-  if (zeros.empty()) return beside;
-  follow_jumps(switches);
-  ContactAnswer answer = expansion_.expand(question);
-  if (answer.excluding.empty() && is_consistent(switches) && std::all_of(zeros.begin(), zeros.end(), stays))
-    return answer;
-  for (std::size_t j = 0; j < zeros.size(); ++j)
-    expansion_.branch(static_cast<std::size_t>(zeros[j])) = branches[j];
-  follow_jumps(switches);
-  beside = expansion_.expand(question);
-  if (!is_consistent(switches)) return std::nullopt;
-  return beside;
 }
 
 /// The difference of T - V between the branches of a switch, at the zero of its argument: events that
@@ -280,63 +221,6 @@ void Motion::EventDriven::note_unloading(const std::vector<Zero>& zeros) {
       unloaded_.push_back(
           {zero.which, roundings_of_instant * epsilon * clock() *
                            std::abs(slope_at(coefficients(done.lambda, zero.which), done.length))});
-}
-
-ContactQuestion Motion::EventDriven::question_of(const std::vector<Index>& contacts) const {
-  ContactQuestion question{{}, contacts, unloaded_};
-  for (Index a = 0; a < expansion_.constraints(); ++a)
-    if (is_two_sided(a)) question.held.push_back(a);
-  return question;
-}
-
-/// The branches of the others where these jump, and with them an argument such as that of sign(if(x < 0, y,
-/// 1)).
-void Motion::EventDriven::follow_jumps(const std::vector<Index>& jumping, const std::vector<double>& before) {
-  expansion_.set(state);
-  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
-    if (is_among(jumping, static_cast<Index>(k))) continue;
-    const double argument = expansion_.switch_argument(k)[0], rounding = expansion_.rounding_of_switch(k)[0];
-    const bool is_at_zero = std::abs(argument) <= rounding,
-               was_off = k < before.size() && std::abs(before[k]) > jumped * rounding;
-    const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
-    if (branch == expansion_.branch(k)) continue;
-    expansion_.branch(k) = branch;
-    expansion_.set(state);
-  }
-}
-
-/// The right limit on the branches that it itself takes: those across first, then all others.
-std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
-                                                                     const std::vector<Index>& switches) {
-  const ContactQuestion question = question_of(contacts);
-  undefined_beyond_.clear();
-  constexpr std::size_t most_tried = 8;
-  const std::size_t tried = std::min(switches.size(), most_tried);
-  std::vector<double> before;
-  for (std::size_t k = 0; k < expansion_.switches(); ++k) before.push_back(expansion_.switch_argument(k)[0]);
-  const bool begins = record.steps == 0;  // on the branch of the text, where 0 is not negative
-  for (const Index k : switches)
-    if (double& branch = expansion_.branch(static_cast<std::size_t>(k)); branch == 0) branch = 1;
-  for (std::size_t choice = 0; choice < (std::size_t{1} << tried); ++choice) {
-    for (std::size_t j = 0; j < switches.size(); ++j) {
-      double& branch = expansion_.branch(static_cast<std::size_t>(switches[j]));
-      // Counting in Gray's order changes one branch at a time.
-      if ((choice == 0 && !begins) ||
-          (choice > 0 && j < tried &&
-           ((choice ^ (choice >> 1U)) ^ ((choice - 1) ^ ((choice - 1) >> 1U))) == (std::size_t{1} << j)))
-        branch = -branch;
-    }
-    try {
-      if (!switches.empty()) follow_jumps(switches, before);
-      ContactAnswer answer = expansion_.expand(question);
-      if (!answer.excluding.empty()) return answer;
-      if (is_consistent(switches)) return answer_where_zero_stays(question, switches, std::move(answer));
-    } catch (const convex::InvalidInput& error) {  // nothing is defined there, as beyond a table's end
-      if (switches.empty()) throw;
-      undefined_beyond_ = error.what();
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace mechanics::inline motions

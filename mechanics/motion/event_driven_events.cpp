@@ -227,12 +227,17 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   if (status == MotionStatus::done) release_event(held, state.v);
 }
 
-void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches,
+void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vector<Index> switches,
                                     const std::vector<Index>& without_gradient) {
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   std::fill(is_weak_.begin(), is_weak_.end(), false);
   take_rounding_of_gradients_for_zero(contacts);
+  if (expansion_.has_open_angle())
+    return stop(
+        "at t = " + number_text(state.t) +
+        ": both arguments of an atan2 are 0, and nothing tells the angle there; write the expressions "
+        "without it, or begin beside that place");
   const std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
   if (answer && meet_kinks(contacts, switches)) return;
   if (!answer) {

@@ -9,6 +9,27 @@ namespace mechanics::inline motions {
 
 using expression::Slot;
 
+namespace {
+
+/// Of max and min the argument of the switch is a difference.
+bool compares(const expression::Tape& tape, expression::NodeId chooses) {
+  const expression::Operation operation = tape.operation(chooses);
+  return operation == expression::Operation::max || operation == expression::Operation::min;
+}
+
+/// By node, whether an atan2 is in it.
+std::vector<bool> nodes_with_angles(const expression::Tape& tape) {
+  std::vector<bool> has_angle(tape.size());
+  for (expression::NodeId node = 0; node < tape.size(); ++node) {
+    const int count = expression::arity(tape.operation(node));
+    has_angle[node] = tape.operation(node) == expression::Operation::atan2 ||
+                      (count > 0 && has_angle[tape.a(node)]) || (count > 1 && has_angle[tape.b(node)]);
+  }
+  return has_angle;
+}
+
+}  // namespace
+
 Expansion::Expansion(const LagrangianSystem& system, int order)
     : system_(system),
       equations_(system.equations_of_motion().equations),
@@ -20,6 +41,10 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))),
       magnitude_(series_) {
   convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
+  const std::vector<bool> has_angle = nodes_with_angles(equations_.tape);
+  for (const Switch& one : steps_.switches)
+    angles_choose_ = angles_choose_ || has_angle[equations_.tape.a(one.node)] ||
+                     (compares(equations_.tape, one.node) && has_angle[equations_.tape.b(one.node)]);
 }
 
 void Expansion::take(const State& state) {
@@ -85,9 +110,7 @@ bool Expansion::depends(std::size_t k, expression::Dependence on) const {
   using namespace expression;
   const Tape& tape = equations_.tape;
   const NodeId chooses = steps_.switches[k].node;
-  const Operation operation = tape.operation(chooses);
-  const bool compares = operation == Operation::max || operation == Operation::min;
-  return (tape.depends(compares ? chooses : tape.a(chooses)) & on) != 0;
+  return (tape.depends(compares(tape, chooses) ? chooses : tape.a(chooses)) & on) != 0;
 }
 
 double Expansion::drift(Index a) const {

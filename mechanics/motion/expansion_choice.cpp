@@ -123,6 +123,19 @@ std::vector<double> Expansion::rounding_of_switch(std::size_t k) {
   return of_order;
 }
 
+double Expansion::rounding_of_argument(std::size_t k) {
+  return rounding(0) * magnitude_of(steps_.switches[k].argument);
+}
+
+bool Expansion::has_open_angle() {
+  const auto is_zero = [&](Slot series) {
+    return std::abs(series_[series][0]) <= rounding(0) * magnitude_of(series);
+  };
+  return angles_choose_ && std::any_of(steps_.steps.begin(), steps_.steps.end(), [&](const TaylorStep& step) {
+           return step.kind == TaylorStep::Kind::angle && is_zero(step.a) && is_zero(step.b);
+         });
+}
+
 /// Those of order k, with the lower ones if they were not needed so far.
 Expansion::Magnitudes Expansion::magnitudes_of_order(const std::vector<Index>& constraints, int k) {
   for (; magnitudes_found_ < k; ++magnitudes_found_) magnitudes({}, magnitudes_found_);

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mechanics/motion/event_driven.hpp"
+
+/// The right limit of an arc where arguments of branches are 0: the branch of each is the sign with which its
+/// argument goes on, which depends on q'' and so on the branches.
+namespace mechanics::inline motions {
+namespace {
+
+/// An argument at 0 is so within some roundings of its terms and of the time; one of so many has jumped off
+/// it.
+constexpr double jumped = 0x1p26;
+
+/// Of so many arguments at 0 all branches are tried.
+constexpr std::size_t most_tried = 8;
+
+}  // namespace
+
+ContactQuestion Motion::EventDriven::question_of(const std::vector<Index>& contacts) const {
+  ContactQuestion question{{}, contacts, unloaded_};
+  for (Index a = 0; a < expansion_.constraints(); ++a)
+    if (is_two_sided(a)) question.held.push_back(a);
+  return question;
+}
+
+/// What an argument is the sum of on an arc, up to a time.
+double Motion::EventDriven::terms_of_argument(std::size_t k, double tau) const {
+  if (watched_.size() < expansion_.switches()) return 0;
+  double terms = 0;
+  const std::vector<double>& c = watched_[watched_.size() - expansion_.switches() + k].c;
+  for (std::size_t i = c.size(); i-- > 0;) terms = terms * tau + std::abs(c[i]);
+  return terms * std::pow(tau, zeros_of_switch_[k]);
+}
+
+/// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
+/// there is none. Each order has its own scale: derivatives of a fast motion grow with their order.
+double Motion::EventDriven::sign_ahead(std::size_t k) {
+  const std::span<const double> c = expansion_.switch_argument(k);
+  const std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
+  // One that contains others at 0 may have jumped off it with them: by more than rounding and what it does
+  // on an arc.
+  const double length = last_length_ > 0 ? last_length_ : 1;
+  double farthest = jumped * by_rounding[0], power = 1;
+  for (std::size_t i = 1; i < c.size(); ++i)
+    farthest = std::max(farthest, std::abs(c[i]) * (power *= length) / jumped);
+  std::size_t first = std::abs(c[0]) > farthest ? 0 : 1;
+  while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) {
+    if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
+    ++first;
+  }
+  zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
+  return first < c.size() ? std::copysign(1.0, c[first]) : 0;
+}
+
+/// The branches of the others where these jump, and with them an argument such as that of sign(if(x < 0, y,
+/// 1)). What is at 0 then, or jumps onto it, is in question as these are.
+void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before) {
+  expansion_.set(state);
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
+    if (is_among(at_zero, static_cast<Index>(k))) continue;
+    const double argument = expansion_.switch_argument(k)[0], rounding = expansion_.rounding_of_argument(k);
+    const bool is_at_zero = std::abs(argument) <= rounding, was_off = std::abs(before[k]) > jumped * rounding;
+    const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
+    // Near a pole rounding tells nothing.
+    if (is_at_zero && (was_off || rounding <= half_the_digits * terms_of_argument(k, done.length)))
+      at_zero.push_back(static_cast<Index>(k));
+    if (branch == expansion_.branch(k)) continue;
+    expansion_.branch(k) = branch;
+    expansion_.set(state);
+  }
+}
+
+/// The right limit on the branches that it itself takes. First are those of the text at a start, where
+/// sign(0) = 0, and at an event those across; then the signs with which the arguments go on from there, as
+/// long as they are new; then all others. An argument that stays 0 has the branch 0; only where none is found
+/// so, that beside it.
+std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
+                                                                     std::vector<Index>& at_zero) {
+  const ContactQuestion question = question_of(contacts);
+  undefined_beyond_.clear();
+  if (at_zero.empty()) {
+    expansion_.set(state);
+    return expansion_.expand(question);
+  }
+  using Branches = std::vector<double>;
+  const std::size_t switches = expansion_.switches(), asked = at_zero.size();
+  const bool begins = record.steps == 0;
+  std::vector<double> before;
+  for (std::size_t k = 0; k < switches; ++k) before.push_back(expansion_.switch_argument(k)[0]);
+  Branches across;
+  for (std::size_t k = 0; k < switches; ++k) across.push_back(expansion_.branch(k));
+  for (const Index which : at_zero) {
+    double& branch = across[static_cast<std::size_t>(which)];
+    branch = begins ? 0 : -branch;
+  }
+  enum class Found { nothing, excluded, beside, itself };
+  std::optional<ContactAnswer> answer;
+  Branches ahead, may_stay(switches, 0.0);
+  const auto look = [&](const Branches& branches) {
+    for (std::size_t k = 0; k < switches; ++k) expansion_.branch(k) = branches[k];
+    ahead = branches;
+    try {
+      follow_jumps(at_zero, before);
+      answer = expansion_.expand(question);
+      if (!answer->excluding.empty()) return Found::excluded;
+      Found found = Found::itself;
+      for (const Index which : at_zero) {
+        const auto k = static_cast<std::size_t>(which);
+        const double sign = ahead[k] = sign_ahead(k);
+        if (sign == 0) may_stay[k] = 1;
+        if (sign != expansion_.branch(k))
+          found = sign == 0 && found != Found::nothing ? Found::beside : Found::nothing;
+      }
+      return found;
+    } catch (const convex::InvalidInput& error) {  // nothing is defined there, as beyond a table's end
+      undefined_beyond_ = error.what();
+      return Found::nothing;
+    }
+  };
+  Found best = Found::nothing;
+  Branches of_best;
+  std::vector<std::pair<std::size_t, Branches>> tried;  // with as many in question
+  const auto is_new = [&](const Branches& branches) {
+    return std::find(tried.begin(), tried.end(), std::pair(at_zero.size(), branches)) == tried.end();
+  };
+  const auto take = [&](const Branches& branches) {
+    tried.emplace_back(at_zero.size(), branches);
+    const Found found = look(branches);
+    Branches followed;
+    for (std::size_t k = 0; k < switches; ++k) followed.push_back(expansion_.branch(k));
+    if (found > best) best = found, of_best = followed;
+    tried.emplace_back(at_zero.size(), std::move(followed));
+  };
+  for (Branches branches = across; best != Found::itself && is_new(branches); branches = ahead)
+    take(branches);
+  const std::vector<Index> varied(at_zero.begin(),
+                                  at_zero.begin() + static_cast<long>(std::min(at_zero.size(), most_tried)));
+  const auto choices = static_cast<std::size_t>(std::pow(3, varied.size()));
+  for (std::size_t choice = 0; choice < choices && best != Found::itself; ++choice) {
+    Branches branches = across;
+    bool may_be = true;
+    std::size_t digits = choice;
+    for (const Index which : varied) {
+      const auto k = static_cast<std::size_t>(which);
+      const double first = across[k] == 0 ? 1 : across[k];
+      branches[k] = digits % 3 == 0 ? first : digits % 3 == 1 ? -first : 0;
+      may_be = may_be && (branches[k] != 0 || may_stay[k] > 0);
+      digits /= 3;
+    }
+    if (may_be && is_new(branches)) take(branches);
+  }
+  if (best == Found::nothing) return std::nullopt;
+  if (best != Found::itself) look(of_best);
+  // What jumped onto 0 on other branches only is not at 0 on these.
+  const auto is_off = [&](Index which) {
+    const auto k = static_cast<std::size_t>(which);
+    return std::abs(expansion_.switch_argument(k)[0]) > expansion_.rounding_of_argument(k);
+  };
+  at_zero.erase(std::remove_if(at_zero.begin() + static_cast<long>(asked), at_zero.end(), is_off),
+                at_zero.end());
+  return answer;
+}
+
+}  // namespace mechanics::inline motions
