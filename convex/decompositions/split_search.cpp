@@ -8,6 +8,7 @@
 #include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
 #include "convex/decompositions/cutting_planes.hpp"
+#include "convex/functions/interior.hpp"
 #include "convex/functions/other_pairs.hpp"
 #include "convex/gamma0/work_limit.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -70,7 +71,30 @@ class SplitSearch {
   };
   static const Way ways[14];
 
-  bool is_found() const { return is_borne_out(best_, enough_, tolerance_); }
+  /// f at z itself; +inf, which denies nothing, where it is not told.
+  const Value& f_of_z() const {
+    if (f_z_) return *f_z_;
+    const WorkLimit part(part_of_a_move);
+    try {
+      f_z_ = of_.f.evaluate(z_);
+    } catch (const InvalidInput&) {
+      f_z_ = Value{std::numeric_limits<double>::infinity(), 0};
+    }
+    return *f_z_;
+  }
+  /// By f(z) >= f(x) + ½||x - z||², which sees what a covector beside its domain hides on steep places.
+  bool is_worse_than_z(const Decomposition& split, double rounding) const {
+    if (split.x.route != ProxRoute::iterative) return false;
+    const double away = W_.norm(split.x.x - z_), value = split.f_x + 0.5 * away * away;
+    const double size = std::abs(value) + std::abs(f_of_z().value);
+    const double doubt = f_of_z().error + (roundings_of_a_term * unit_roundoff + tolerance_) * size;
+    return value > f_of_z().value + rounding + doubt + split.error_bound * (split.error_bound + away);
+  }
+  bool bears_out(const SplitCandidate& made) const {
+    return is_borne_out(made, enough_, tolerance_) &&
+           !is_worse_than_z(made.split, made.rounding + made.error);
+  }
+  bool is_found() const { return bears_out(best_); }
   bool ended() const { return is_found() || WorkLimit::passed(); }
   bool is_near(const std::optional<Prox>& found) const { return found && found->error_bound <= enough_; }
 
@@ -115,14 +139,13 @@ class SplitSearch {
   void consider(const std::optional<Prox>& x, const std::optional<Prox>& y) {
     if (is_found() || !is_near(x) || !is_near(y)) return;
     SplitCandidate other = at_points(of_, *x, *y, z_, W_);
-    if (is_borne_out(other, enough_, tolerance_)) best_ = std::move(other);
+    if (bears_out(other)) best_ = std::move(other);
   }
 
   /// x with its covector beside y, where the values bear that out.
   std::optional<SplitCandidate> borne_out_at_covector(const Prox& x, const Prox& y) const {
     SplitCandidate other = at_covector(of_, x, y, z_, W_, tolerance_);
-    if (!is_borne_out(other, enough_, tolerance_) || !is_inner_of_points(other.split, tolerance_, W_))
-      return std::nullopt;
+    if (!bears_out(other) || !is_inner_of_points(other.split, tolerance_, W_)) return std::nullopt;
     return other;
   }
 
@@ -154,7 +177,7 @@ class SplitSearch {
     for (const Vector& point : {Vector(Vector::Zero(z_.size())), z_}) {
       if (ended()) return;
       auto other = at_zero(of_, point, z_, W_, enough_);
-      if (other && is_borne_out(*other, enough_, tolerance_)) best_ = *std::move(other);
+      if (other && bears_out(*other)) best_ = *std::move(other);
     }
   }
 
@@ -235,12 +258,13 @@ class SplitSearch {
   /// Rounding of a far z may have left x outside: a point of the domain that the values bear out is told.
   void tell_x_inside() {
     const WorkLimit part(part_of_a_move);
+    best_.open = best_.open || is_beyond_domain(of_.f, best_.split.x.x, z_.norm());
     const auto x = moved_inside(of_.f, best_.split.x);
     if (!x) return;
     const Prox y = best_.split.y;
     for (SplitCandidate other :
          {at_points(of_, *x, y, z_, W_), at_covector(of_, *x, y, z_, W_, tolerance_)}) {
-      if (!is_borne_out(other, enough_, tolerance_) || other.x_is_outside) continue;
+      if (!bears_out(other) || other.x_is_outside) continue;
       if (!is_inner_of_points(other.split, tolerance_, W_)) continue;
       best_ = std::move(other);
       return;
@@ -291,9 +315,10 @@ class SplitSearch {
   const Metric& W_;
   const double tolerance_;
   const Look& look_;
-  const Vector covector_;  ///< Wz
-  Prox x_, y_;             ///< as the two proxes gave them
-  double enough_ = 0;      ///< what a bound may be
+  const Vector covector_;             ///< Wz
+  Prox x_, y_;                        ///< as the two proxes gave them
+  double enough_ = 0;                 ///< what a bound may be
+  mutable std::optional<Value> f_z_;  ///< f(z)
   SplitCandidate best_;
   std::optional<SplitCandidate> kink_;
   std::optional<Metric> V_;  ///< W⁻¹

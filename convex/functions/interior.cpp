@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/gamma0/facts.hpp"
+#include "convex/gamma0/node.hpp"
 
 namespace convex::inline named_functions {
 
@@ -16,6 +17,14 @@ bool is_well_inside(const Function& f, const Vector& x, double size) {
     for (const double side : {-step, step})
       if (!std::isfinite(f(x + side * Vector::Unit(x.size(), i)))) return false;
   return true;
+}
+
+bool is_beyond_domain(const Function& f, const Vector& x, double size) {
+  const double tolerance = membership_tolerance * (size + x.norm());
+  for (Index i = 0; i < x.size(); ++i)
+    for (const Vector& e : {Vector(Vector::Unit(x.size(), i)), Vector(-Vector::Unit(x.size(), i))})
+      if (e.dot(x) - f.node().domain_support(e) > tolerance) return true;
+  return false;
 }
 
 }  // namespace convex::inline named_functions

@@ -9,4 +9,7 @@ namespace convex::inline named_functions {
 /// not of many.
 bool is_well_inside(const Function& f, const Vector& x, double size);
 
+/// Is an entry of x beyond all of the domain of f, by more than `membership_tolerance` of `size` and of x?
+bool is_beyond_domain(const Function& f, const Vector& x, double size);
+
 }  // namespace convex::inline named_functions

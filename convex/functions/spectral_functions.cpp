@@ -131,6 +131,13 @@ class NegLogDet : public LogDeterminant {
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox_formulas::prox_log_det(z, 1 / d[0]);
   }
+  /// -x⁻¹ and the skew part of Dz, which is free, where D(z - x) keeps fewer digits than an inverse does.
+  std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const override {
+    const std::optional<Vector> slope = subgradient(x);
+    if (!slope || !(slope->norm() * slope->norm() * x.norm() < d[0] * z.norm())) return std::nullopt;
+    const Matrix Z = unstacked(z, prox_formulas::order_of_stacked(z));
+    return *slope + d[0] * stacked(0.5 * (Z - Z.transpose()));
+  }
   /// The multiplier is D(z - x), whose skew part is free.
   double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
     return inverse_miss(parts_of(x).symmetric, parts_of(v).symmetric, d[0]);

@@ -109,8 +109,10 @@ class Epigraph : public Lifted {
     if (below.value == 0) return std::isfinite(height.error) ? below : Value{0, infinity};
     // On a steep part a rounded x may lift f(x) far above t: the nearest point decides.
     const Prox nearest = prox(x, Metric::identity(x.size()), Look{});
-    return nearest.x.size() == x.size() ? indicated(length_of(nearest.x - x), length_of(x))
-                                        : Value{infinity, 0};
+    if (nearest.x.size() != x.size()) return {infinity, 0};
+    const Value found = indicated(length_of(nearest.x - x), length_of(x));
+    // A search that gave up at x says nothing of it.
+    return found.value == 0 && nearest.status != Status::solved ? Value{0, infinity} : found;
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (value(x) > 0) return std::nullopt;

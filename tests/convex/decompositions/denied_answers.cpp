@@ -1,0 +1,82 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "convex/functions/decomposition.hpp"
+#include "convex/gamma0/node.hpp"
+#include "tests/convex/operations/samples.hpp"
+
+/// Answers that look right to the values at hand, and are not.
+using namespace convex;
+
+namespace {
+
+struct Question {
+  std::string f;
+  std::vector<double> z, x;  ///< x as mpmath has it, to some 12 digits
+};
+
+Decomposition split_of(const Question& question) {
+  const auto n = static_cast<Index>(question.z.size());
+  const Vector z = Eigen::Map<const Vector>(question.z.data(), n);
+  return decompose(samples::function(question.f, n), z, Metric::identity(n));
+}
+
+double error_of(const Decomposition& split, const Question& question) {
+  const Vector x = Eigen::Map<const Vector>(question.x.data(), static_cast<Index>(question.x.size()));
+  return (split.x.x - x).norm();
+}
+
+}  // namespace
+
+TEST_CASE("a point is no member of an epigraph because the search for the nearest one gave up there") {
+  // (x - 3s)²/(2s), whose three terms cancel where it is small: x = 0 was told, by a conjugate that seemed 0.
+  const Question questions[] = {
+      {"perspective(sum(squared_norm2(),constant(4.5),linear([-3])))",
+       {0.00067, 0},
+       {0.000603002019943, 0.000200996184535}},
+      {"perspective(sum(squared_norm2(),constant(5000),linear([-100])))",
+       {0.1, 0},
+       {0.0999900010, 0.0009998999}},
+      {"indicator(epigraph(dilate(log_barrier(),1e9)))", {1, -3}, {5.2242200450, 19.0698859454}}};
+  for (const Question& question : questions) {
+    CAPTURE(question.f);
+    const Decomposition split = split_of(question);
+    CHECK((split.status != Status::solved || error_of(split, question) <= 1e-8));
+    CHECK(split.x.x.norm() > 0);
+  }
+}
+
+TEST_CASE("no x is told that is worse than z itself") {
+  // (5, 0) is inside: e⁵ - 5e9 < 0, and the slope of 1e9 puts a wrong covector within rounding of the domain.
+  for (const char* f : {"indicator(epigraph(sum(exponential(),linear([-1e9]))))",
+                        "indicator(epigraph(tilt(power(4),[-1e9])))"}) {
+    CAPTURE(std::string(f));
+    const Decomposition split = split_of({f, {5, 0}, {5, 0}});
+    CHECK(split.status == Status::solved);
+    CHECK(split.x.x == Vector{{5, 0}});
+  }
+}
+
+TEST_CASE("an x outside the domain by more than rounding is not solved") {
+  const Question question{
+      "pointwise_max(indicator(box(0.1,2e6)),scale(sum(inverse_power(0.5),binary_entropy()),1e11))",
+      {-0.328},
+      {0.70098}};
+  const Decomposition split = split_of(question);
+  CHECK((split.status != Status::solved || error_of(split, question) <= 1e-4));
+}
+
+TEST_CASE("the slope of -log det is told by an inverse where its prox is near its point") {
+  const Question questions[] = {{"sum(norm1(),envelope(neg_log_det(),1e-10))", {0.3}, {0.709481004927099}},
+                                {"sum(huber(1),envelope(neg_log_det(),1e-10))", {0.3}, {0.786073132609496}},
+                                {"sum(huber(1),envelope(neg_log_det(),1e-8))", {5}, {4.23606797737518}}};
+  for (const Question& question : questions) {
+    CAPTURE(question.f);
+    const Decomposition split = split_of(question);
+    CHECK(split.status == Status::solved);
+    CHECK(error_of(split, question) <= 1e-11);
+  }
+}
