@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
@@ -261,6 +262,14 @@ std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x,
   made.rounding += (slack * slack + of_z * of_z) / 2;
   made.split.x.error_bound = made.split.y.error_bound = made.split.error_bound = made.proved();
   return made;
+}
+
+Value told_value(const Function& f, const Vector& x) {
+  try {
+    return split_value_of(f, x);
+  } catch (const InvalidInput&) {
+    return {std::numeric_limits<double>::infinity(), 0};
+  }
 }
 
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?

@@ -62,6 +62,9 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
 std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x, const Vector& z,
                                       const Metric& W, double enough);
 
+/// f(x); +inf, which contradicts nothing, where it is not told.
+Value told_value(const Function& f, const Vector& x);
+
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
 bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W);
 

@@ -60,6 +60,7 @@ class SplitSearch {
     const bool y_is_rounded = unit_roundoff * W_.norm(z_) > accuracy_of_prox * W_.norm(best_.split.y.x);
     if (is_found() && y_is_rounded && !tells_g(best_)) tell_g();
     if (wrong_ && !is_found()) throw InvalidInput(*wrong_);
+    best_.open = best_.open || is_denied(best_.split, best_.rounding + best_.error);
     return bounded_by_values();
   }
 
@@ -71,28 +72,23 @@ class SplitSearch {
   };
   static const Way ways[14];
 
-  /// f at z itself; +inf, which denies nothing, where it is not told.
-  const Value& f_of_z() const {
-    if (f_z_) return *f_z_;
-    const WorkLimit part(part_of_a_move);
-    try {
-      f_z_ = of_.f.evaluate(z_);
-    } catch (const InvalidInput&) {
-      f_z_ = Value{std::numeric_limits<double>::infinity(), 0};
-    }
-    return *f_z_;
-  }
-  /// By f(z) >= f(x) + ½||x - z||², which sees what a covector beside its domain hides on steep places.
-  bool is_worse_than_z(const Decomposition& split, double rounding) const {
+  /// By Fenchel's inequality f(p) + g(q) >= (p|q) with z for x, or y of the prox of g for y: it sees what the
+  /// values at x and y alone do not, a covector beside its domain, or a value that work cut short.
+  bool is_denied(const Decomposition& split, double rounding) const {
     if (split.x.route != ProxRoute::iterative) return false;
-    const double away = W_.norm(split.x.x - z_), value = split.f_x + 0.5 * away * away;
-    const double size = std::abs(value) + std::abs(f_of_z().value);
-    const double doubt = f_of_z().error + (roundings_of_a_term * unit_roundoff + tolerance_) * size;
-    return value > f_of_z().value + rounding + doubt + split.error_bound * (split.error_bound + away);
+    if (!f_of_z_) f_of_z_ = told_value(of_.f, z_);
+    const auto contradicts = [&](const Value& f_p, const Vector& p, const Value& g_q, const Vector& q) {
+      const double sizes = W_.norm(p) * W_.norm(q) + std::abs(f_p.value) + std::abs(g_q.value);
+      const double doubt = rounding + f_p.error + g_q.error +
+                           (roundings_of_a_term * unit_roundoff + tolerance_) * sizes +
+                           split.error_bound * (W_.norm(p) + W_.norm(q));
+      return f_p.value + g_q.value < W_.inner(p, q) - doubt;
+    };
+    return contradicts(*f_of_z_, z_, {split.g_y, 0}, split.y.x) ||
+           contradicts({split.f_x, 0}, split.x.x, g_of_y_, y_.x);
   }
   bool bears_out(const SplitCandidate& made) const {
-    return is_borne_out(made, enough_, tolerance_) &&
-           !is_worse_than_z(made.split, made.rounding + made.error);
+    return is_borne_out(made, enough_, tolerance_) && !is_denied(made.split, made.rounding + made.error);
   }
   bool is_found() const { return bears_out(best_); }
   bool ended() const { return is_found() || WorkLimit::passed(); }
@@ -127,6 +123,7 @@ class SplitSearch {
     if (none(x_)) x_ = made_up(none(y_) ? std::nullopt : moreau_partner(y_, z_, W_), z_);
     if (none(y_)) y_ = made_up(moreau_partner(x_, z_, W_), Vector::Zero(z_.size()));
     best_ = at_points(of_, x_, y_, z_, W_);
+    if (std::isfinite(best_.split.g_y)) g_of_y_ = {best_.split.g_y, best_.error};
     enough_ = tolerance_ * std::max({1.0, W_.norm(z_), W_.norm(x_.x)});
   }
 
@@ -315,10 +312,11 @@ class SplitSearch {
   const Metric& W_;
   const double tolerance_;
   const Look& look_;
-  const Vector covector_;             ///< Wz
-  Prox x_, y_;                        ///< as the two proxes gave them
-  double enough_ = 0;                 ///< what a bound may be
-  mutable std::optional<Value> f_z_;  ///< f(z)
+  const Vector covector_;  ///< Wz
+  Prox x_, y_;             ///< as the two proxes gave them
+  double enough_ = 0;      ///< what a bound may be
+  mutable std::optional<Value> f_of_z_;
+  Value g_of_y_{std::numeric_limits<double>::infinity(), 0};
   SplitCandidate best_;
   std::optional<SplitCandidate> kink_;
   std::optional<Metric> V_;  ///< W⁻¹

@@ -80,3 +80,15 @@ TEST_CASE("the slope of -log det is told by an inverse where its prox is near it
     CHECK(error_of(split, question) <= 1e-11);
   }
 }
+
+TEST_CASE("a value that work cut short is denied by the other prox") {
+  // f(z) is +inf: the cone's third entry is below 0 at z, and the entropy only takes from it.
+  const Question question{
+      "inf_convolution(precompose(indicator(epigraph(perspective(squared_norm2()))),[[0,2,0.5,1],[0,-1,0.5,0."
+      "5],"
+      "[2,1,0.5,2],[0,0.5,0,0.5]],[3,3,-1,-1.097]),tilt(sum(kullback_leibler(1),constant(-4)),[1,1,1,1]))",
+      {0.5, -2.249, 2, -1e6},
+      {122084.30967749853, 29632.93799008687, 993.8559611728454, -16038.28275243812}};
+  const Decomposition split = split_of(question);
+  CHECK(error_of(split, question) <= 1e-3);
+}
