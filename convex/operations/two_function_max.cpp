@@ -152,8 +152,12 @@ Prox named(const At& at_weight) {
   Prox made = at_weight.prox;
   const Function& mean = at_weight.mean;
   const bool is_one = at_weight.t == 0 || at_weight.t == 1;
-  if (!made.values && (is_one || mean.facts().piecewise_quadratic))
-    made.values = {mean.evaluate(made.x), mean.conjugate().evaluate(made.v), 0};
+  if (!made.values && (is_one || mean.facts().piecewise_quadratic)) {
+    try {
+      made.values = {mean.evaluate(made.x), mean.conjugate().evaluate(made.v), 0};
+    } catch (const InvalidInput&) {  // beside the least weight a program may see no domain
+    }
+  }
   made = with_values(made, made.values, at_weight.above);
   made.method = "dual of a maximum, " + made.method;
   return made;

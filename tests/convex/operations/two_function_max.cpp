@@ -127,3 +127,18 @@ TEST_CASE("the conjugate of a maximum is known by its dual where slopes are far 
     CHECK(found.error <= 4 * convex::unit_roundoff * far);  // of v·x, which cancels
   }
 }
+
+TEST_CASE("a maximum is known though the conjugate of its mean with the least weight is not") {
+  struct Case {
+    const char* box;
+    double x;
+  };
+  for (const Case& one : {Case{"box(13,15)", 13}, {"box(-3,-2)", -2}, {"box(25,30)", 25}}) {
+    CAPTURE(std::string(one.box));
+    const Function f = samples::function(
+        "pointwise_max(sum(huber(1), indicator(" + std::string(one.box) + ")), squared_norm2())", 1);
+    const Decomposition split = decompose(f, Vector::Constant(1, 5), Metric::identity(1));
+    CHECK(split.status == Status::solved);
+    CHECK(split.x.x[0] == doctest::Approx(one.x).epsilon(1e-13));
+  }
+}
