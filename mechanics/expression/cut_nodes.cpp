@@ -75,9 +75,13 @@ NodeId CutNodes::angle(NodeId y, NodeId x, Origin origin) {
     tape_.note_edge(x);
     return where(x, tape_.literal("0", 0, origin), tape_.pi(origin), origin);
   }
-  const NodeId one = tape_.literal("1", 1, origin),
-               quarter = apply(Operation::divide, tape_.pi(origin), tape_.literal("2", 2, origin)),
-               opposite = apply(Operation::negate, y, y), side = where(x, one, y, origin);
+  const NodeId quarter = apply(Operation::divide, tape_.pi(origin), tape_.literal("2", 2, origin));
+  if (is(x, 0)) {
+    tape_.note_edge(y);
+    return apply(Operation::multiply, quarter, apply(Operation::sign, y, y));
+  }
+  const NodeId one = tape_.literal("1", 1, origin), opposite = apply(Operation::negate, y, y),
+               side = where(x, one, y, origin);
   tape_.note_edge(side);
   const NodeId above = apply(Operation::subtract, quarter, apply(Operation::atan2, x, y)),
                below = apply(Operation::subtract, apply(Operation::atan2, x, opposite), quarter);

@@ -11,7 +11,7 @@ namespace mechanics::expression {
 /// of its cut, y = 0 where x < 0, so that its jump of 2π there is one of branches: with w = y where x < 0,
 /// else 1, it is
 ///   π/2 - atan2(x, y)  where x < 0 and w >= 0,    -π/2 + atan2(x, -y)  where w < 0,    itself elsewhere,
-/// each smooth across its own border. Of y = 0 it is 0 or π, by the sign of x.
+/// each smooth across its own border. Of y = 0 it is 0 or π, by the sign of x; of x = 0, π/2 sign(y).
 class CutNodes {
  public:
   /// Appends to the tape, which must outlive this.

@@ -89,6 +89,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   std::vector<Index>& at_zero);
   double sign_ahead(std::size_t k);
+  bool has_left_its_branch(std::size_t k, double tau);
   double terms_of_argument(std::size_t k, double tau) const;
   void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows

@@ -61,6 +61,11 @@ bool Motion::EventDriven::is_met(double at, double tau) {
     return false;
   }
   if (is_passed(tau)) return false;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    if (has_left_its_branch(k, tau)) {
+      obstacle_ = "an atan2 jumps there, and with it the argument of a branch";
+      return false;
+    }
   const double moved = largest_term(sizes_, tau);
   const double size = expansion_.norm(q2_);
   q2_ -= expected_q2_;

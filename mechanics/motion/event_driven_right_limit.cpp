@@ -34,6 +34,15 @@ double Motion::EventDriven::terms_of_argument(std::size_t k, double tau) const {
   return terms * std::pow(tau, zeros_of_switch_[k]);
 }
 
+/// Whether an argument is on the other side, of which the series of its arc know nothing: an atan2 in it has
+/// jumped.
+bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
+  const double beyond = -expansion_.switch_argument(k)[0] * expansion_.branch(k);
+  if (!(beyond > 0) || !expansion_.has_angle(k)) return false;
+  const double digits = half_the_digits * terms_of_argument(k, tau);
+  return digits > 0 && beyond > digits + expansion_.rounding_of_argument(k);
+}
+
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
 /// there is none. Each order has its own scale: derivatives of a fast motion grow with their order.
 double Motion::EventDriven::sign_ahead(std::size_t k) {

@@ -43,8 +43,8 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
   convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
   const std::vector<bool> has_angle = nodes_with_angles(equations_.tape);
   for (const Switch& one : steps_.switches)
-    angles_choose_ = angles_choose_ || has_angle[equations_.tape.a(one.node)] ||
-                     (compares(equations_.tape, one.node) && has_angle[equations_.tape.b(one.node)]);
+    has_angle_.push_back(has_angle[equations_.tape.a(one.node)] ||
+                         (compares(equations_.tape, one.node) && has_angle[equations_.tape.b(one.node)]));
 }
 
 void Expansion::take(const State& state) {

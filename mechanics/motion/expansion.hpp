@@ -140,6 +140,8 @@ class Expansion {
   std::vector<double> rounding_of_switch(std::size_t k);
   /// The same of the argument itself, at a state.
   double rounding_of_argument(std::size_t k);
+  /// Whether an atan2 is in that argument, which may jump then.
+  bool has_angle(std::size_t k) const { return has_angle_[k]; }
   /// Whether both arguments of an atan2 are 0 but for rounding at a state, so that nothing tells the angle,
   /// and with it a branch.
   bool has_open_angle();
@@ -207,10 +209,10 @@ class Expansion {
   std::vector<double> f_;       // likewise
   TaylorMagnitude magnitude_;   // while it is open who persists
   bool magnitude_is_begun_ = false;
-  bool angles_choose_ = false;  // an argument of a switch has an atan2
-  int magnitudes_found_ = 0;    // orders of the question
-  convex::Matrix inverse_;      // |A⁻¹| of its entries, for few coordinates
-  Vector unit_norms_;           // ||e_i||_(A⁻¹), for many
+  std::vector<bool> has_angle_;  // by switch, whether an atan2 is in its argument
+  int magnitudes_found_ = 0;     // orders of the question
+  convex::Matrix inverse_;       // |A⁻¹| of its entries, for few coordinates
+  Vector unit_norms_;            // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
   std::vector<Index> zero_rows_;
   std::vector<ContactQuestion::Unloaded> unloaded_;

@@ -1,0 +1,73 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace tests;
+using mechanics::MotionStatus;
+
+TEST_CASE("an argument that stays 0 has its value there, while one beside it leaves 0") {
+  struct Case {
+    const char *x, *y;
+    mechanics::State start;
+    double until, q, v;  // of x
+  };
+  // v' = 1 - v² from rest is v = tanh t; y' stays 0, x' does not.
+  const Case cases[] = {
+      {"if(y' <= 0, 1, 0) - sign(x')*x'^2", "0", state({0, 0}, {0, 0}), 1, std::log(std::cosh(1.0)),
+       std::tanh(1.0)},
+      // y = -t, and |y| is the force on x: x' < x' is never so.
+      {"if(x' < x', 5, abs(y))", "if(y' < y', 5, 0)", state({0, 0}, {0, -1}), 2, 8.0 / 6, 2},
+      // x' comes to 0 at ln 2, where the step jumps from beyond x' to it.
+      {"min(x', step(x')) - 1", "0", state({0, 0}, {0.5, 0}), 1, 1 - (std::exp(1.0) - 1) / 2,
+       1 - std::exp(1.0) / 2},
+      // y = 1 - sin t comes to 0 at π/2 without a velocity, and goes on above.
+      {"0", "step(y) - y", state({0, 1}, {0, -1}), 2, 0, 0}};
+  for (const Case& one : cases) {
+    CAPTURE(one.x);
+    const Followed motion = followed(
+        {{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"x", one.x}, {"y", one.y}}, {}}, one.start, one.until);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(one.q).epsilon(1e-11));
+    CHECK(motion.end().v[0] == doctest::Approx(one.v).epsilon(1e-11));
+    if (one.until == 2 && one.q == 0)
+      CHECK(motion.end().q[1] == doctest::Approx(1 - std::sin(2.0)).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("at rest at the bottom of a potential with a kink a body stays, and moves along it") {
+  for (const char* V : {"sqrt(4*x^2)", "abs(x)", "abs(cos(atan2(-1/2, x)))"}) {
+    CAPTURE(V);
+    const Followed motion = followed(
+        {{"x", "y"}, "(x'^2+y'^2)/2", std::string(V) + " + y^2/2", {}, {}, {}, {}}, state({0, 1}, {0, 0}), 2);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == 0);
+    CHECK(motion.end().q[1] == doctest::Approx(std::cos(2.0)).epsilon(1e-11));
+    CHECK(motion.motion.record().steps < 100);
+  }
+}
+
+TEST_CASE("where both arguments of atan2 come to 0 the motion stops, for the angle jumps there") {
+  for (const char* force : {"abs(atan2(x, x))", "sqrt(4*atan2(x, x)^2)", "sign(atan2(x, x))"}) {
+    CAPTURE(force);
+    const Followed motion = followed({{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"y", force}}, {}},
+                                     state({-0.4863, 0}, {0.7, 0}), 2);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(motion.motion.why().find("atan2") != std::string::npos);
+    CHECK(motion.end().t == doctest::Approx(0.4863 / 0.7).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("an angle above the origin jumps where its height changes its sign, and a branch with it") {
+  // x'' = -x from -1 with x' = 0.3, and 1 - x from the time at which x = 0, where atan2(x, 0) jumps to π/2.
+  for (const char* angle : {"atan2(x, 0)", "atan2(x, step(-1))"}) {
+    CAPTURE(angle);
+    const Followed motion =
+        followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "step(" + std::string(angle) + ") - x"}}, {}},
+                 state({-1}, {0.3}), 2);
+    const double left = 2 - std::atan2(1, 0.3), speed = std::sqrt(1.09);
+    CHECK(motion.end().q[0] == doctest::Approx(1 - std::cos(left) + speed * std::sin(left)).epsilon(1e-12));
+  }
+}
