@@ -1,5 +1,6 @@
 #include "convex/functions/semidefinite.hpp"
 
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -64,9 +65,12 @@ Spectrum spectrum_of(const Matrix& Q) {
   const Vector& values = eigen.values;
   const Index n = Q.rows();
   const double negligible = rank_tolerance * static_cast<double>(n) * values.cwiseAbs().maxCoeff();
-  if (values.minCoeff() < -negligible)
-    throw InvalidInput("quadratic(Q): not positive semidefinite, an eigenvalue is " +
-                       std::to_string(values.minCoeff()) + "; the function would not be convex");
+  if (values.minCoeff() < -negligible) {
+    char least[32];
+    std::snprintf(least, sizeof least, "%.4g", values.minCoeff());
+    throw InvalidInput("quadratic(Q): not positive semidefinite, an eigenvalue is " + std::string(least) +
+                       "; the function would not be convex");
+  }
   const Index rank = (values.array() > negligible).count();
   Spectrum found{eigen.vectors.rightCols(rank), eigen.vectors.leftCols(n - rank), values.tail(rank),
                  values.minCoeff() > 2 * negligible};
