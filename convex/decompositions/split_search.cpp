@@ -60,8 +60,12 @@ class SplitSearch {
     const bool y_is_rounded = unit_roundoff * W_.norm(z_) > accuracy_of_prox * W_.norm(best_.split.y.x);
     if (is_found() && y_is_rounded && !tells_g(best_)) tell_g();
     if (wrong_ && !is_found()) throw InvalidInput(*wrong_);
-    best_.open = best_.open || is_denied(best_.split, best_.rounding + best_.error);
-    return bounded_by_values();
+    Decomposition split = bounded_by_values();
+    const bool is_outside = best_.x_is_outside && is_beyond_domain(of_.f, split.x.x, z_.norm());
+    if (!is_outside && !is_denied(split, best_.rounding + best_.error)) return split;
+    split.status = Status::inaccurate;
+    split.error_bound = split.x.error_bound = split.y.error_bound = std::numeric_limits<double>::infinity();
+    return split;
   }
 
  private:
@@ -72,8 +76,8 @@ class SplitSearch {
   };
   static const Way ways[14];
 
-  /// By Fenchel's inequality f(p) + g(q) >= (p|q) with z for x, or y of the prox of g for y: it sees what the
-  /// values at x and y alone do not, a covector beside its domain, or a value that work cut short.
+  /// Whether f(p) + g(q) >= (p|q) fails for z and y, or for x and what the prox of g gave, of a split that
+  /// hangs on values: they may be of a covector beside its domain, or cut short with the work.
   bool is_denied(const Decomposition& split, double rounding) const {
     if (split.x.route != ProxRoute::iterative) return false;
     if (!f_of_z_) f_of_z_ = told_value(of_.f, z_);
@@ -255,7 +259,6 @@ class SplitSearch {
   /// Rounding of a far z may have left x outside: a point of the domain that the values bear out is told.
   void tell_x_inside() {
     const WorkLimit part(part_of_a_move);
-    best_.open = best_.open || is_beyond_domain(of_.f, best_.split.x.x, z_.norm());
     const auto x = moved_inside(of_.f, best_.split.x);
     if (!x) return;
     const Prox y = best_.split.y;

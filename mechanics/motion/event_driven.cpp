@@ -140,6 +140,7 @@ void Motion::EventDriven::watch() {
     Watched& one = watched_[count++];
     one.of = of;
     one.which = which;
+    one.zeros = zeros;
     c = c.subspan(static_cast<std::size_t>(zeros));
     // On a branch that is not taken they may leave the range of doubles; half of them tell where it ends.
     const std::size_t enough = c.size() / 2;
@@ -169,9 +170,10 @@ void Motion::EventDriven::watch() {
   watched_.resize(count);
 }
 
-std::vector<Zero> Motion::EventDriven::zeros_before(double end) const {
+/// Of a time so far ahead, at which something is 0.
+double Motion::EventDriven::rounding_of_time(double ahead) const {
   const double of_t = expansion_.uses_time() ? roundings_of_t * std::abs(state.t) : 0;
-  return first_zeros(watched_, end, epsilon * std::max(of_t, roundings_of_time * (since_start_ + end)));
+  return epsilon * std::max(of_t, roundings_of_time * (since_start_ + ahead));
 }
 
 /// A time at which what is 0 is 0 by the text itself, not only by the polynomial.
@@ -253,7 +255,7 @@ void Motion::EventDriven::take_step(double until) {
       return stop("at t = " + number_text(state.t) + ": " +
                   (obstacle_.empty() ? "no step, however short, keeps the tolerance" : obstacle_) +
                   "; the motion ends here, or the expressions have to be written otherwise");
-    zeros = zeros_before(end);
+    zeros = first_zeros(watched_, end, rounding_of_time(end));
     tau = end;
     for (Zero& zero : zeros) {
       zero.at = polished(zero, zero.at);

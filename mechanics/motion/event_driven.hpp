@@ -38,7 +38,7 @@ class Motion::EventDriven final : public Motion::Course {
  private:
   void begin(const State& at);
   void take_step(double until);
-  std::vector<Zero> zeros_before(double end) const;
+  double rounding_of_time(double ahead) const;
   std::vector<Zero> closing_at_once();
   std::vector<Zero> closing_at_the_end();
   void watch();

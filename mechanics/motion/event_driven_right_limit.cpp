@@ -9,9 +9,11 @@
 namespace mechanics::inline motions {
 namespace {
 
-/// An argument at 0 is so within some roundings of its terms and of the time; one of so many has jumped off
-/// it.
+/// An argument that was so many roundings from 0, and is at 0 now, has jumped onto it.
 constexpr double jumped = 0x1p26;
+
+/// An argument at 0 is so within so many times what its rounding, and that of the time, leave of it.
+constexpr double roundings_at_zero = 4;
 
 /// Of so many arguments at 0 all branches are tried.
 constexpr std::size_t most_tried = 8;
@@ -31,7 +33,7 @@ double Motion::EventDriven::terms_of_argument(std::size_t k, double tau) const {
   double terms = 0;
   const std::vector<double>& c = watched_[watched_.size() - expansion_.switches() + k].c;
   for (std::size_t i = c.size(); i-- > 0;) terms = terms * tau + std::abs(c[i]);
-  return terms * std::pow(tau, zeros_of_switch_[k]);
+  return terms * std::pow(tau, watched_[watched_.size() - expansion_.switches() + k].zeros);
 }
 
 /// Whether an argument is on the other side, of which the series of its arc know nothing: an atan2 in it has
@@ -48,12 +50,12 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
 double Motion::EventDriven::sign_ahead(std::size_t k) {
   const std::span<const double> c = expansion_.switch_argument(k);
   const std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
-  // One that contains others at 0 may have jumped off it with them: by more than rounding and what it does
-  // on an arc.
-  const double length = last_length_ > 0 ? last_length_ : 1;
-  double farthest = jumped * by_rounding[0], power = 1;
-  for (std::size_t i = 1; i < c.size(); ++i)
-    farthest = std::max(farthest, std::abs(c[i]) * (power *= length) / jumped);
+  // One that contains others at 0 may have jumped off it with them: it is farther than the time of the event
+  // is uncertain.
+  const double moment = record.steps == 0 ? 0 : rounding_of_time(0);
+  double terms = 0;
+  for (std::size_t i = c.size(); i-- > 1;) terms = (terms + std::abs(c[i])) * moment;
+  const double farthest = roundings_at_zero * (by_rounding[0] + terms);
   std::size_t first = std::abs(c[0]) > farthest ? 0 : 1;
   while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) {
     if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
@@ -72,7 +74,8 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
     const double argument = expansion_.switch_argument(k)[0], rounding = expansion_.rounding_of_argument(k);
     const bool is_at_zero = std::abs(argument) <= rounding, was_off = std::abs(before[k]) > jumped * rounding;
     const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
-    // Near a pole rounding tells nothing.
+    // Where rounding is more than half the digits of what it was on the arc, as near a pole, it is no sign of
+    // 0.
     if (is_at_zero && (was_off || rounding <= half_the_digits * terms_of_argument(k, done.length)))
       at_zero.push_back(static_cast<Index>(k));
     if (branch == expansion_.branch(k)) continue;
@@ -83,8 +86,8 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
 
 /// The right limit on the branches that it itself takes. First are those of the text at a start, where
 /// sign(0) = 0, and at an event those across; then the signs with which the arguments go on from there, as
-/// long as they are new; then all others. An argument that stays 0 has the branch 0; only where none is found
-/// so, that beside it.
+/// long as they are new; 0 for those that turn back and forth; then all others, 0 for those that were seen to
+/// stay. An argument that stays 0 has the branch 0; only where none is found so, that beside it.
 std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
                                                                      std::vector<Index>& at_zero) {
   const ContactQuestion question = question_of(contacts);
@@ -106,7 +109,8 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   }
   enum class Found { nothing, excluded, beside, itself };
   std::optional<ContactAnswer> answer;
-  Branches ahead, may_stay(switches, 0.0);
+  Branches ahead;
+  std::vector<bool> may_stay(switches);
   const auto look = [&](const Branches& branches) {
     for (std::size_t k = 0; k < switches; ++k) expansion_.branch(k) = branches[k];
     ahead = branches;
@@ -118,7 +122,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
       for (const Index which : at_zero) {
         const auto k = static_cast<std::size_t>(which);
         const double sign = ahead[k] = sign_ahead(k);
-        if (sign == 0) may_stay[k] = 1;
+        if (sign == 0) may_stay[k] = true;
         if (sign != expansion_.branch(k))
           found = sign == 0 && found != Found::nothing ? Found::beside : Found::nothing;
       }
@@ -142,8 +146,13 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
     if (found > best) best = found, of_best = followed;
     tried.emplace_back(at_zero.size(), std::move(followed));
   };
-  for (Branches branches = across; best != Found::itself && is_new(branches); branches = ahead)
-    take(branches);
+  Branches trial = across;
+  for (bool is_first = true; best != Found::itself && (is_first || is_new(trial)); is_first = false) {
+    Branches last = trial;
+    for (; best != Found::itself && is_new(trial); trial = ahead) take(last = trial);
+    for (std::size_t k = 0; k < switches; ++k)  // neither sign goes on, as of a body that comes to rest
+      if (trial[k] != last[k]) trial[k] = 0;
+  }
   const std::vector<Index> varied(at_zero.begin(),
                                   at_zero.begin() + static_cast<long>(std::min(at_zero.size(), most_tried)));
   const auto choices = static_cast<std::size_t>(std::pow(3, varied.size()));
@@ -155,7 +164,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
       const auto k = static_cast<std::size_t>(which);
       const double first = across[k] == 0 ? 1 : across[k];
       branches[k] = digits % 3 == 0 ? first : digits % 3 == 1 ? -first : 0;
-      may_be = may_be && (branches[k] != 0 || may_stay[k] > 0);
+      may_be = may_be && (branches[k] != 0 || may_stay[k]);
       digits /= 3;
     }
     if (may_be && is_new(branches)) take(branches);

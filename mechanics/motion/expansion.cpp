@@ -7,6 +7,7 @@
 
 namespace mechanics::inline motions {
 
+using expression::NodeId;
 using expression::Slot;
 
 namespace {
@@ -41,10 +42,22 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))),
       magnitude_(series_) {
   convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
-  const std::vector<bool> has_angle = nodes_with_angles(equations_.tape);
-  for (const Switch& one : steps_.switches)
-    has_angle_.push_back(has_angle[equations_.tape.a(one.node)] ||
-                         (compares(equations_.tape, one.node) && has_angle[equations_.tape.b(one.node)]));
+  const expression::Tape& tape = equations_.tape;
+  const std::vector<bool> has_angle = nodes_with_angles(tape);
+  std::vector<bool> is_in_argument(tape.size());
+  for (const Switch& one : steps_.switches) {
+    const NodeId a = tape.a(one.node), b = compares(tape, one.node) ? tape.b(one.node) : a;
+    has_angle_.push_back(has_angle[a] || has_angle[b]);
+    is_in_argument[a] = is_in_argument[b] = true;
+  }
+  for (NodeId node = static_cast<NodeId>(tape.size()); node-- > 0;) {
+    const int count = is_in_argument[node] ? expression::arity(tape.operation(node)) : 0;
+    if (count > 0) is_in_argument[tape.a(node)] = true;
+    if (count > 1) is_in_argument[tape.b(node)] = true;
+  }
+  for (const TaylorStep& step : steps_.steps)
+    if (step.kind == TaylorStep::Kind::angle && is_in_argument[equations_.program.node(step.out)])
+      choosing_angles_.emplace_back(step.a, step.b);
 }
 
 void Expansion::take(const State& state) {

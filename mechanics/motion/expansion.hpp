@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanics/lagrangian_system.hpp"
@@ -210,9 +211,10 @@ class Expansion {
   TaylorMagnitude magnitude_;   // while it is open who persists
   bool magnitude_is_begun_ = false;
   std::vector<bool> has_angle_;  // by switch, whether an atan2 is in its argument
-  int magnitudes_found_ = 0;     // orders of the question
-  convex::Matrix inverse_;       // |A⁻¹| of its entries, for few coordinates
-  Vector unit_norms_;            // ||e_i||_(A⁻¹), for many
+  std::vector<std::pair<expression::Slot, expression::Slot>> choosing_angles_;  // y and x of those
+  int magnitudes_found_ = 0;                                                    // orders of the question
+  convex::Matrix inverse_;  // |A⁻¹| of its entries, for few coordinates
+  Vector unit_norms_;       // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
   std::vector<Index> zero_rows_;
   std::vector<ContactQuestion::Unloaded> unloaded_;

@@ -131,10 +131,8 @@ bool Expansion::has_open_angle() {
   const auto is_zero = [&](Slot series) {
     return std::abs(series_[series][0]) <= rounding(0) * magnitude_of(series);
   };
-  const bool angles_choose = std::find(has_angle_.begin(), has_angle_.end(), true) != has_angle_.end();
-  return angles_choose && std::any_of(steps_.steps.begin(), steps_.steps.end(), [&](const TaylorStep& step) {
-           return step.kind == TaylorStep::Kind::angle && is_zero(step.a) && is_zero(step.b);
-         });
+  return std::any_of(choosing_angles_.begin(), choosing_angles_.end(),
+                     [&](const auto& angle) { return is_zero(angle.first) && is_zero(angle.second); });
 }
 
 /// Those of order k, with the lower ones if they were not needed so far.

@@ -22,6 +22,7 @@ struct Watched {
   Index which;
   std::vector<double> c;  ///< coefficients, positive just after the beginning, without the leading zeros
   double rounding;        ///< what rounding leaves of a 0, besides that of the terms
+  int zeros = 0;          ///< how many those are
 };
 
 /// The zeros of what is watched in (0, end], the first one of each; those not first in time by more than

@@ -67,6 +67,7 @@ TEST_CASE("an x outside the domain by more than rounding is not solved") {
       {0.70098}};
   const Decomposition split = split_of(question);
   CHECK((split.status != Status::solved || error_of(split, question) <= 1e-4));
+  CHECK(error_of(split, question) <= split.error_bound + 1e-4);
 }
 
 TEST_CASE("the slope of -log det is told by an inverse where its prox is near its point") {

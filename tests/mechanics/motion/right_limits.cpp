@@ -71,3 +71,39 @@ TEST_CASE("an angle above the origin jumps where its height changes its sign, an
     CHECK(motion.end().q[0] == doctest::Approx(1 - std::cos(left) + speed * std::sin(left)).epsilon(1e-12));
   }
 }
+
+TEST_CASE("an argument that is not 0 once others have left 0 has its own sign, however fast it falls") {
+  struct Case {
+    const char* force;
+    mechanics::State start;
+    double until, v;  // of y
+  };
+  const Case cases[] = {
+      {"max(if(t > 0, exp(-50*t) + 1e-3, 0), 0)", state({0, 0}, {0, 0}), 1, (1 - std::exp(-50)) / 50 + 1e-3},
+      {"sign(if(x > 0, 1 + 0.5*cos(100*t), 0))", state({0, 0}, {1, 0}), 1, 1},
+      {"sign(if(x > 0, 2 - 1e6*x, 0))", state({-1, 0}, {1, 0}), 1.000001, 1e-6}};
+  for (const Case& one : cases) {
+    CAPTURE(std::string(one.force));
+    const Followed motion =
+        followed({{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"y", one.force}}, {}}, one.start, one.until);
+    CHECK(motion.end().v[1] == doctest::Approx(one.v).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("bodies that friction brings to rest at once stay there, however many") {
+  SystemText text;
+  convex::Vector q(6), v(6);
+  for (int i = 0; i < 6; ++i) {
+    const std::string a = "a" + std::to_string(i);
+    text.coordinates.push_back(a);
+    text.kinetic += (i > 0 ? " + " : "") + a + "'^2/2";
+    text.forces.push_back({a, "-sign(" + a + "')"});
+    q[i] = 0;
+    v[i] = i < 4 ? 1 : 1.5;
+  }
+  const Followed motion = followed(text, {0, q, v}, 3);
+  CHECK(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.end().v.norm() <= 1e-14);
+  CHECK(motion.end().q[0] == doctest::Approx(0.5).epsilon(1e-12));
+  CHECK(motion.end().q[5] == doctest::Approx(1.125).epsilon(1e-12));
+}
