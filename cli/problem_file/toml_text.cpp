@@ -39,8 +39,10 @@ std::string toml_key(const std::string& key) {
   return is_bare ? key : quoted_toml(key);
 }
 
-/// JSON has numbers that TOML has not: 1E5 is one, 1.e5 and 01 are none of both.
+/// JSON has numbers that TOML has not: 1E5 is one, 1.e5 and 01 are none of both, and its integers have any
+/// length, TOML's 64 bits.
 std::string toml_number(const TomlValue& value) {
+  if (value.kind == Kind::integer && std::abs(value.number) >= 0x1p63) return quoted_toml(value.text);
   if (std::isfinite(value.number)) return value.text;
   return std::isnan(value.number) ? "nan" : value.number > 0 ? "inf" : "-inf";
 }

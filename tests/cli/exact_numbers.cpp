@@ -279,3 +279,17 @@ TEST_CASE("a folder of matrix files of integers has them exactly") {
   REQUIRE(outcome.code < 2);
   CHECK(Json::parse(outcome.out).at("exact").at("acceleration").at("q[0]") == "9007199254740993");
 }
+
+TEST_CASE("integers longer than 64 bits survive a conversion to TOML") {
+  const Folder folder;
+  const std::string file =
+      folder.write("p.json", R"({"projection": {"A": [[1]], "z": [123456789012345678901234567890]}})");
+  const Outcome converted = run({"convert", file, folder.path("p.toml")});
+  CAPTURE(converted.err);
+  REQUIRE(converted.code == 0);
+  const Outcome outcome = run({"solve", "--json", "--method", "exact", folder.path("p.toml")});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code < 2);
+  CHECK(Json::parse(outcome.out).at("exact").at("acceleration").at("q[0]") ==
+        "123456789012345678901234567890");
+}
