@@ -18,8 +18,8 @@ std::optional<double> nearest_double(const std::string& text) {
 bool is_double(const TomlValue& value) {
   if (value.kind == TomlValue::Kind::array)
     return std::all_of(value.array.begin(), value.array.end(), is_double);
-  constexpr double first_gap = 0x1p53;  // below, all integers are doubles
-  const bool is_long = value.kind == TomlValue::Kind::integer && std::abs(value.number) >= first_gap;
+  const bool is_long =
+      value.kind == TomlValue::Kind::integer && std::abs(value.number) >= first_gap_of_integers;
   if (!is_long && !value.is_string()) return true;
   const auto meant = convex::read_fraction(value.text);
   if (!meant) return true;  // no number: others say so

@@ -12,6 +12,9 @@ namespace cli::inline problem_files {
 /// is beyond all doubles; none when the text is not a number or the denominator is 0.
 std::optional<double> nearest_double(const std::string& text);
 
+/// Below, all integers are doubles.
+constexpr double first_gap_of_integers = 0x1p53;
+
 /// Whether each number of a value, or of a list or lists, is the double that is read for it: an integer
 /// beyond 2^53 may be none, nor what stands in quotation marks.
 bool is_double(const TomlValue& value);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/problem_file/exact_number.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "convex/exact/fraction.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
@@ -34,7 +35,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-std::string without_blanks(std::string_view text) {
+std::string from_first_digit(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t+");
   return std::string(text.substr(std::min(first, text.size())));
 }
@@ -81,9 +82,8 @@ class Reader {
       const double value = number();
       entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
       if (symmetric && i != j) entries.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
-      constexpr double first_gap = 0x1p53;  // below, all integers are doubles
-      if (field != "integer" || !(std::abs(value) >= first_gap)) return;
-      const auto exact = convex::read_fraction(without_blanks(current_.substr(first, place_ - first)));
+      if (field != "integer" || !(std::abs(value) >= first_gap_of_integers)) return;
+      const auto exact = convex::read_fraction(from_first_digit(current_.substr(first, place_ - first)));
       if (!exact || *exact == convex::fraction(value)) return;
       long_integers_.push_back({i, j, *exact});
       if (symmetric && i != j) long_integers_.push_back({j, i, *exact});
