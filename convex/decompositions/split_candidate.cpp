@@ -272,7 +272,25 @@ Value told_value(const Function& f, const Vector& x) {
   }
 }
 
-/// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
+bool holds_nearer_point(const SplitFunctions& of, const Decomposition& split, const Vector& z,
+                        const Metric& W) {
+  constexpr double far_beyond = 8, far_more = 512 * accuracy_of_prox;
+  const auto holds = [&](const Function& set, const Prox& told) {
+    const Vector way = z - told.x;
+    if (!(W.norm(way) > far_beyond * told.error_bound)) return false;
+    if (!(way.norm() > far_more * (z.norm() + told.x.norm()))) return false;
+    const Value in_the_middle = told_value(set, told.x + 0.5 * way);
+    return in_the_middle.value == 0 && in_the_middle.error == 0;
+  };
+  const Facts facts = of.f.facts();
+  return (facts.indicator && holds(of.f, split.x)) || (facts.support && holds(of.g, split.y));
+}
+
+double size_of_slope(const Function& f, const Vector& x) {
+  const std::optional<Vector> v = f.subgradient(x);
+  return v && v->allFinite() ? v->cwiseAbs().dot(x.cwiseAbs()) : 0;
+}
+
 bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W) {
   const Vector &x = split.x.x, &y = split.y.x;
   const double size = size_of_values(split);

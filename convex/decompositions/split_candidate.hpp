@@ -65,6 +65,15 @@ std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x,
 /// f(x); +inf, which contradicts nothing, where it is not told.
 Value told_value(const Function& f, const Vector& x);
 
+/// Where f or g is the indicator of a set: does that hold the middle between z and what is told as its point
+/// nearest to z, which is farther away than its bound and the slack of membership? Then it is not the
+/// nearest.
+bool holds_nearer_point(const SplitFunctions& of, const Decomposition& split, const Vector& z,
+                        const Metric& W);
+
+/// What a rounding of x makes of f(x), to first order: |v|·|x| for a subgradient there.
+double size_of_slope(const Function& f, const Vector& x);
+
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
 bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W);
 

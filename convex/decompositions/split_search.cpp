@@ -24,12 +24,6 @@ constexpr double part_of_a_prox = 0.8, part_of_a_move = 0.1, part_of_a_way = 0.3
 /// Of cuts beside a kink: above the curvature of most functions, of many, and none.
 constexpr double stiffnesses[] = {1e6, 1e3, 1};
 
-/// What a rounding of x makes of f(x), to first order: |v|·|x| for a subgradient there.
-double size_of_slope(const Function& f, const Vector& x) {
-  const std::optional<Vector> v = f.subgradient(x);
-  return v && v->allFinite() ? v->cwiseAbs().dot(x.cwiseAbs()) : 0;
-}
-
 /// `found`, or a point of which nothing is known.
 Prox made_up(const std::optional<Prox>& found, const Vector& point) {
   if (found) return *found;
@@ -80,6 +74,7 @@ class SplitSearch {
   /// hangs on values: they may be of a covector beside its domain, or cut short with the work.
   bool is_denied(const Decomposition& split, double rounding) const {
     if (split.x.route != ProxRoute::iterative) return false;
+    if (holds_nearer_point(of_, split, z_, W_)) return true;
     if (!f_of_z_) f_of_z_ = told_value(of_.f, z_);
     const auto contradicts = [&](const Value& f_p, const Vector& p, const Value& g_q, const Vector& q) {
       const double sizes = W_.norm(p) * W_.norm(q) + std::abs(f_p.value) + std::abs(g_q.value);

@@ -49,6 +49,14 @@ TEST_CASE("a point is no member of an epigraph because the search for the neares
   }
 }
 
+TEST_CASE("what is told as nearest to z does not lie inside of the set") {
+  // The values of a y of 3e-9 say nothing here: x was told as (2.8e-9, 0.5), a step away from the edge.
+  const Question question{
+      "indicator(epigraph(sum(log_barrier(),constant(-25))))", {0, 0.5}, {8.4234637545e-12, 0.5}};
+  const Decomposition split = split_of(question);
+  CHECK((split.status != Status::solved || error_of(split, question) <= split.error_bound));
+}
+
 TEST_CASE("no x is told that is worse than z itself") {
   // (5, 0) is inside: e⁵ - 5e9 < 0, and the slope of 1e9 puts a wrong covector within rounding of the domain.
   for (const char* f : {"indicator(epigraph(sum(exponential(),linear([-1e9]))))",
