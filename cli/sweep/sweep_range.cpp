@@ -59,6 +59,9 @@ SweepRange parse_sweep_range(const std::string& text, double most) {
   const Fraction steps = (last - first) / step;
   const double count = std::floor(convex::nearest_double(steps));
   if (convex::sign(steps) < 0) refuse_range(text, "the step leads away from the last value; change its sign");
+  if (count < 1)
+    refuse_range(text, "one value alone, for the step leads beyond the last; write first:step:last, or " +
+                           range.key + "=" + bounds[0]);
   if (count >= most)
     refuse_range(text, fmt::format("more than 1e{:.0f} values; choose a larger step", std::log10(most)));
   for (double k = 0; k <= count; ++k)
