@@ -77,8 +77,17 @@ class JsonReader {
       found.boolean = truth;
       return found;
     }
+    refuse_words();
     number(found);
     return found;
+  }
+
+  /// What JSON or Python write where there is no number.
+  void refuse_words() const {
+    for (const std::string word : {"null", "NaN", "Infinity", "-Infinity"})
+      if (text_.compare(at_, word.size(), word) == 0)
+        throw InvalidInput(
+            key_ + ": " + word + " is no value here; give a finite number, or leave the key out", place());
   }
 
   void object(TomlValue& to, int depth) {
@@ -94,6 +103,7 @@ class JsonReader {
       if (to.find(key) != nullptr)
         throw InvalidInput("the key \"" + shown(key) + "\" stands here twice; keep one", where);
       expect(':');
+      key_ = shown(key);
       to.table.push_back({std::move(key), where, value(depth + 1)});
     } while (comma_before('}'));
   }
@@ -194,6 +204,7 @@ class JsonReader {
   const std::string& text_;
   std::size_t at_ = 0, line_start_ = 0;
   int line_ = 1;
+  std::string key_;  ///< the last one read
 };
 
 std::string quoted_json(const std::string& text) {

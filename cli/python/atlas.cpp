@@ -17,11 +17,10 @@ cli::AtlasOptions atlas_options(const py::dict& given) {
   options.json = true;
   take(options.mean, given, "mean");
   take(options.covariance, given, "covariance");
-  take(options.tolerance, given, "tolerance");
+  take_positive(options.tolerance, given, "tolerance");
   take(options.over, given, "over");
   take(options.cells, given, "cells");
   take(options.plot, given, "plot");
-  if (!(options.tolerance > 0)) throw convex::InvalidInput("tolerance: not positive; give one such as 1e-6");
   return options;
 }
 

@@ -23,7 +23,7 @@ cli::SolveOptions options_of(const py::dict& given) {
                           "verbose", "plane", "onset", "probes"});
   cli::SolveOptions options;
   take(options.method, given, "method");
-  take(options.tolerance, given, "tolerance");
+  take_positive(options.tolerance, given, "tolerance");
   take(options.limit, given, "limit");
   take(options.certify, given, "certify");
   take(options.ranges, given, "ranges");

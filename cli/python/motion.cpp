@@ -39,7 +39,7 @@ std::shared_ptr<FollowedSystem> begin(const Document& document, const py::dict& 
   if (text == nullptr) throw InvalidInput("nothing here moves; Motion takes a problem with [system]");
   cli::MotionChoice choice;
   take(choice.method, given, "method");
-  take(choice.tolerance, given, "tolerance");
+  take_positive(choice.tolerance, given, "tolerance");
   take(choice.step_limit, given, "step_limit");
   const py::gil_scoped_release released;
   std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text->system);

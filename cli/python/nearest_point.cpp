@@ -22,7 +22,7 @@ using Solved = SolvedNumbers;
 
 SolveChoice choice_of(const py::object& method, const py::object& tolerance) {
   SolveChoice choice{&convex::methods().front(), {}};
-  choice.accuracy.tolerance = option<double>(tolerance, "tolerance");
+  choice.accuracy.tolerance = positive(tolerance, "tolerance");
   if (method.is_none()) return choice;
   const auto name = option<std::string>(method, "method");
   choice.method = convex::find_method(name);

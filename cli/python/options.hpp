@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,17 @@ void take(std::optional<T>& into, const pybind11::dict& options, const char* key
 template <class T>
 void take(T& into, const pybind11::dict& options, const char* key) {
   if (options.contains(key) && !options[key].is_none()) into = option<T>(options[key], key);
+}
+
+/// A finite number above 0, or InvalidInput.
+inline double positive(const pybind11::handle& value, const std::string& key) {
+  const auto number = option<double>(value, key);
+  if (std::isfinite(number) && number > 0) return number;
+  throw convex::InvalidInput(key + ": not a positive number; give one above 0");
+}
+template <class T>
+void take_positive(T& into, const pybind11::dict& options, const char* key) {
+  if (options.contains(key) && !options[key].is_none()) into = positive(options[key], key);
 }
 
 /// Throws InvalidInput for an option that there is not.

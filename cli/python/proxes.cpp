@@ -7,6 +7,7 @@
 #include "cli/python/bindings.hpp"
 #include "cli/python/expression.hpp"
 #include "cli/python/fractions.hpp"
+#include "cli/python/options.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/decomposition_report.hpp"
 #include "convex/functions/decomposition.hpp"
@@ -87,13 +88,14 @@ struct Split {
 };
 
 std::shared_ptr<Split> decompose(const Expression& f, const py::object& z, const py::object& W,
-                                 double tolerance) {
+                                 const py::object& tolerance) {
+  const double close = positive(tolerance, "tolerance");
   Vector point = vector_of(z, "z");
   const convex::Metric metric = metric_of(W, point.size(), "W");
   const convex::Function made = f.in(metric);
   const std::string text = to_text(f.call());
   const py::gil_scoped_release released;
-  convex::Decomposition parts = convex::decompose(made, point, metric, tolerance);
+  convex::Decomposition parts = convex::decompose(made, point, metric, close);
   return std::make_shared<Split>(Split{text, std::move(point), std::move(parts)});
 }
 
@@ -119,12 +121,13 @@ ExactQuestion exact_question(const Expression& f, const py::object& z, const py:
 }
 
 std::shared_ptr<Split> proved_decomposition(const Expression& f, const py::object& z, const py::object& W,
-                                            double tolerance) {
+                                            const py::object& tolerance) {
+  const double close = positive(tolerance, "tolerance");
   const ExactQuestion exact = exact_question(f, z, W, "certify");
   const convex::Function made = f.in(exact.W);
   Vector point = nearest(exact.question.z);
   const py::gil_scoped_release released;
-  convex::Decomposition parts = convex::decompose(made, point, exact.W, tolerance);
+  convex::Decomposition parts = convex::decompose(made, point, exact.W, close);
   convex::ProvedSplit proof = convex::prove(exact.question, parts);
   return std::make_shared<Split>(
       Split{to_text(f.call()), std::move(point), std::move(parts), std::move(proof)});

@@ -220,6 +220,17 @@ TEST_CASE("what a form cannot hold is named") {
   CHECK(run({"solve", "--quiet", folder.path("b.json")}).code == 0);
 }
 
+TEST_CASE("a word of JSON or Python that stands for no number is refused with its key") {
+  const Folder folder;
+  for (const std::string word : {"null", "NaN", "-Infinity"}) {
+    CAPTURE(word);
+    const std::string file = folder.write("a.json", R"({"projection": {"A": [[1]], "z": [)" + word + "]}}");
+    const auto refused = run({"solve", file});
+    CHECK(refused.code == 2);
+    CHECK(refused.err.find("a.json:1:35: z: " + word + " is no value here; give") != std::string::npos);
+  }
+}
+
 TEST_CASE("the function in C computes what derive prints") {
   if (std::system("cc --version > /dev/null 2>&1") != 0) return;
   const Folder folder;

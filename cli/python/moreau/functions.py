@@ -72,7 +72,7 @@ def decompose(f, z, W=None, tolerance=1e-9, certify=False):
     """
     _require_function(f)
     split = _moreau.proved_decomposition if certify else _moreau.decompose
-    return split(f, z, W, _number(tolerance, "tolerance"))
+    return split(f, z, W, tolerance)
 
 
 class ExactDecomposition(NamedTuple):

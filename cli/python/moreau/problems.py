@@ -101,7 +101,7 @@ def document_of(problem, settings):
     if not isinstance(problem, (dict, str, os.PathLike)):
         raise _moreau.InvalidInput(f"a {type(problem).__name__} is no problem; give a file, a dict, or A=, z=, U=, s=")
     if isinstance(problem, dict):
-        return _moreau.Document(json.dumps(problem, default=_plain, allow_nan=False), True, given, "dict")
+        return _moreau.Document(json.dumps(problem, default=_plain), True, given, "dict")
     return _moreau.Document(os.fspath(problem), False, given, "")
 
 
