@@ -42,6 +42,8 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_lambda_.assign(m, 0);
   zeros_of_switch_.assign(expansion_.switches(), 0);
   branches_behind_.assign(expansion_.switches(), 0.0);
+  left_of_zero_.assign(expansion_.switches(), 0.0);
+  rounding_of_zero_.resize(expansion_.switches());
   is_weak_.assign(m, false);
   least_multiplier_.assign(m, 0.0);
   is_blurred_.assign(m, false);
@@ -161,7 +163,7 @@ void Motion::EventDriven::watch() {
     // A contact without a multiplier has one from rounding: only what is more than that releases it.
     const double least = is_weak_[k] ? least_multiplier_[k] : 0;
     add(Zero::Of::multiplier, a, coefficients(next.lambda, a), zeros_of_lambda_[k], least);
-    if (is_weak_[k]) watched_[count - 1].c[0] += 10 * least;
+    if (is_weak_[k]) watched_[count - 1].c[0] += room_of_weak * least;
   }
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), zeros_of_switch_[k], 0);
@@ -262,7 +264,7 @@ void Motion::EventDriven::take_step(double until) {
       land_softly(zero, end);
       tau = std::min(tau, zero.at);
     }
-    if (tau <= 0 || fits(tau)) break;
+    if (tau <= 0 || fits(tau, halvings)) break;
     end = 0.5 * tau;
     is_last = false;
   }
@@ -294,10 +296,7 @@ void Motion::EventDriven::take_step(double until) {
   if (status != MotionStatus::done) return;
   if (is_last && zeros.empty() && tau > 0) zeros = closing_at_the_end();
   if (!zeros.empty()) close_together(zeros);
-  if (zeros.empty())
-    continue_arc();
-  else
-    handle(zeros);
+  zeros.empty() ? continue_arc() : handle(zeros);
   tell_endings();
 }
 
@@ -342,6 +341,7 @@ void Motion::EventDriven::continue_arc() {
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   if (!expansion_.gradients_taken_for_zero().empty()) take_rounding_of_gradients_for_zero(persist_);
   expansion_.expand({persist_, {}});
+  if (const std::vector<Zero> left = left_behind(); !left.empty()) return handle(left);
   fill_next();
 }
 

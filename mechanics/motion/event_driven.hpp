@@ -44,8 +44,9 @@ class Motion::EventDriven final : public Motion::Course {
   void watch();
   double polished(const Zero& zero, double tau);
   void land_softly(Zero& zero, double end) const;
-  bool fits(double tau);
-  bool is_met(double at, double tau);
+  bool fits(double tau, int halvings);
+  bool is_met(double at, double tau, bool may_leave_zero);
+  double pull_of_weak(const Vector& lambda);
   bool is_passed(double tau);
   void move_time(double by);
   /// What the rounding of a time is of: motions without t in them are the same whenever they start.
@@ -91,6 +92,11 @@ class Motion::EventDriven final : public Motion::Course {
   double sign_ahead(std::size_t k);
   bool has_left_its_branch(std::size_t k, double tau);
   double terms_of_argument(std::size_t k, double tau) const;
+  bool is_at_zero_of_arc(std::size_t k) const;
+  double left_of_argument(std::size_t k, double tau);
+  bool has_left_zero(std::size_t k, double tau);
+  std::vector<Zero> left_behind();
+  HeldRows::Answer acceleration_off_zero(double tau);
   void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
   /// is an impact, a separation, or the end, and nothing is left to do.
@@ -117,6 +123,8 @@ class Motion::EventDriven final : public Motion::Course {
   /// Sums such as T - V and p, and the values that a series tells, lose digits; as long as half of them are
   /// left, a difference of more is a jump.
   static constexpr double half_the_digits = 0x1p-26;
+  /// A contact without a multiplier pulls beyond so many times what rounding made of that as the arc began.
+  static constexpr double room_of_weak = 10;
   static constexpr double not_begun = std::numeric_limits<double>::quiet_NaN();
   Arc next;  ///< the one ahead of `state`; its t is not a number until it is begun
   Expansion expansion_;
@@ -128,8 +136,10 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Index> persist_;                                       // held on the next arc
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<double> branches_behind_;                              // by switch, before the event
-  std::vector<ContactQuestion::Unloaded> unloaded_;                  // in the event at hand
-  std::vector<bool> is_weak_;                                        // held without a multiplier
+  std::vector<double> left_of_zero_;  // by switch: what rounding may have made of one that stays 0, so far
+  std::vector<std::vector<double>> rounding_of_zero_;  // and makes of it on the next arc, by order
+  std::vector<ContactQuestion::Unloaded> unloaded_;    // in the event at hand
+  std::vector<bool> is_weak_;                          // held without a multiplier
   std::vector<double> least_multiplier_;  // of a weak one: what is less, rounding made at the arc's beginning
   std::vector<bool> is_blurred_;          // of an impact it was told that its time is uncertain
   std::vector<double> elapsed_;           // since the last impact, by constraint

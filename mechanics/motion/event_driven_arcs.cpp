@@ -35,6 +35,10 @@ bool is_rising(const std::vector<double>& sizes, double h) {
   return last >= before;
 }
 
+/// What leaves 0 on a step ends it where its own accelerations are seen no more, but no step is halved more
+/// often for it: what is left of the step then is less than its tolerance.
+constexpr int halvings_until_left = 40;
+
 /// An impact within so many roundings of the end of the motion is at its end.
 constexpr double roundings_of_end = 4;
 
@@ -43,19 +47,24 @@ constexpr double roundings_of_end = 4;
 /// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
 /// does not converge, and an expression that is not analytic. Where the series was not what limits the step,
 /// they are looked at within it too.
-bool Motion::EventDriven::fits(double tau) {
+bool Motion::EventDriven::fits(double tau, int halvings) {
+  const bool may_leave_zero = halvings < halvings_until_left;
   if (is_blind_)
     for (const double part : parts_looked_at)
-      if (!is_met(part * tau, tau)) return false;
-  return is_met(tau, tau);
+      if (!is_met(part * tau, tau, may_leave_zero)) return false;
+  return is_met(tau, tau, may_leave_zero);
 }
 
 /// The same at one of its times.
-bool Motion::EventDriven::is_met(double at, double tau) {
+bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   next.state(at, there_, expected_q2_);
+  double pull = 0;
   try {
     expansion_.set(there_);
-    q2_ = expansion_.acceleration(persist_).x;
+    const HeldRows::Answer answer =
+        may_leave_zero ? acceleration_off_zero(at) : expansion_.acceleration(persist_);
+    q2_ = answer.x;
+    if (may_leave_zero) pull = pull_of_weak(answer.lambda);
   } catch (const convex::InvalidInput& error) {
     obstacle_ = error.what();
     return false;
@@ -69,10 +78,24 @@ bool Motion::EventDriven::is_met(double at, double tau) {
   const double moved = largest_term(sizes_, tau);
   const double size = expansion_.norm(q2_);
   q2_ -= expected_q2_;
-  const double defect = expansion_.norm(q2_) * tau * tau;
+  const double defect = (expansion_.norm(q2_) + pull) * tau * tau;
   const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
   const double orders = static_cast<double>(next.q.cols());
-  return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
+  if (defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding) return true;
+  // Forces that cancel have the rounding of their terms.
+  return defect <= expansion_.rounding_of_acceleration() * tau * tau;
+}
+
+/// By how much contacts held without a multiplier would pull, as an acceleration.
+double Motion::EventDriven::pull_of_weak(const Vector& lambda) {
+  double pull = 0;
+  for (std::size_t k = 0; k < persist_.size(); ++k) {
+    const auto a = static_cast<std::size_t>(persist_[k]);
+    const double beyond = -lambda[static_cast<Index>(k)] - room_of_weak * least_multiplier_[a];
+    if (is_weak_[a] && beyond > 0)
+      pull += beyond * expansion_.inertia().dual_norm(expansion_.row(persist_[k]));
+  }
+  return pull;
 }
 
 /// A contact that is free at the beginning, and through there, was met on the way.
@@ -147,6 +170,8 @@ void Motion::EventDriven::fill_next() {
   next.persist = persist_;
   acceleration = 2 * next.q.col(2);
   multipliers = next.lambda.col(0);
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    if (expansion_.branch(k) == 0) rounding_of_zero_[k] = expansion_.rounding_of_switch(k);
   const double tolerance = tolerance_of_step(options.tolerance);
   expansion_.sizes(sizes_);
   step_ahead_ = step_length(sizes_, tolerance);

@@ -36,6 +36,64 @@ double Motion::EventDriven::terms_of_argument(std::size_t k, double tau) const {
   return terms * std::pow(tau, watched_[watched_.size() - expansion_.switches() + k].zeros);
 }
 
+/// Whether an argument is 0 at the end of the arc, as far as its series there tells.
+bool Motion::EventDriven::is_at_zero_of_arc(std::size_t k) const {
+  constexpr double roundings_of_series = 16;
+  return std::abs(expansion_.switch_argument(k)[0]) <=
+         roundings_of_series * epsilon * terms_of_argument(k, done.length);
+}
+
+/// What rounding may have made, up to a time of the next arc, of an argument that stays 0: by its first two
+/// derivatives, with which the rounding of forces enters; majorants of higher ones do not converge for as
+/// long.
+double Motion::EventDriven::left_of_argument(std::size_t k, double tau) {
+  double left = 0;
+  for (std::size_t j = std::min<std::size_t>(3, rounding_of_zero_[k].size()); j-- > 1;)
+    left = (left + rounding_of_zero_[k][j]) * tau;
+  return left_of_zero_[k] + left;
+}
+
+/// Whether an argument that stayed 0 does so no longer, at a time of the next arc.
+bool Motion::EventDriven::has_left_zero(std::size_t k, double tau) {
+  return expansion_.branch(k) == 0 && std::abs(expansion_.switch_argument(k)[0]) >
+                                          left_of_argument(k, tau) + expansion_.rounding_of_argument(k);
+}
+
+/// q'' and the multipliers at a time of the next arc, by the text: on the branches that the arguments which
+/// have left 0 take by then.
+HeldRows::Answer Motion::EventDriven::acceleration_off_zero(double tau) {
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    if (has_left_zero(k, tau)) left.push_back(k);
+  if (left.empty()) return expansion_.acceleration(persist_);
+  for (const std::size_t k : left)
+    expansion_.branch(k) = std::copysign(1.0, expansion_.switch_argument(k)[0]);
+  expansion_.set(there_);
+  HeldRows::Answer answer = expansion_.acceleration(persist_);
+  for (const std::size_t k : left) expansion_.branch(k) = 0;
+  expansion_.set(there_);
+  return answer;
+}
+
+/// What stayed 0 on the arc behind and does not go on so: arguments of branches, and contacts without a
+/// multiplier that would have to pull. Of an argument that no rounding moves the derivatives tell it too.
+std::vector<Zero> Motion::EventDriven::left_behind() {
+  std::vector<Zero> found;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
+    if (expansion_.branch(k) != 0) continue;
+    const bool has_left = has_left_zero(k, done.length);
+    left_of_zero_[k] = left_of_argument(k, done.length);
+    if (has_left || (left_of_zero_[k] == 0 && sign_ahead(k) != 0))
+      found.push_back({Zero::Of::branch, static_cast<Index>(k), done.length});
+  }
+  for (const Index a : persist_) {
+    const auto k = static_cast<std::size_t>(a);
+    if (is_weak_[k] && expansion_.multiplier(a)[0] < -room_of_weak * least_multiplier_[k])
+      found.push_back({Zero::Of::multiplier, a, done.length});
+  }
+  return found;
+}
+
 /// Whether an argument is on the other side, of which the series of its arc know nothing: an atan2 in it has
 /// jumped.
 bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
@@ -46,7 +104,9 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
 }
 
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
-/// there is none. Each order has its own scale: derivatives of a fast motion grow with their order.
+/// there is none. Each order has its own scale: derivatives of a fast motion grow with their order. Where a
+/// later term comes first to what is left of the argument at 0, the earlier ones are left by that too: those
+/// of a double zero, which is met a little beside.
 double Motion::EventDriven::sign_ahead(std::size_t k) {
   const std::span<const double> c = expansion_.switch_argument(k);
   const std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
@@ -56,10 +116,18 @@ double Motion::EventDriven::sign_ahead(std::size_t k) {
   double terms = 0;
   for (std::size_t i = c.size(); i-- > 1;) terms = (terms + std::abs(c[i])) * moment;
   const double farthest = roundings_at_zero * (by_rounding[0] + terms);
-  std::size_t first = std::abs(c[0]) > farthest ? 0 : 1;
+  left_of_zero_[k] = std::max(left_of_zero_[k], farthest);
+  std::size_t first = std::abs(c[0]) > left_of_zero_[k] ? 0 : 1;
   while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) {
     if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
     ++first;
+  }
+  if (first > 0 && farthest > 0) {
+    const auto width = [&](std::size_t j) {
+      return std::pow(farthest / std::abs(c[j]), 1 / static_cast<double>(j));
+    };
+    for (std::size_t j = first + 1; j < c.size(); ++j)
+      if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;
   }
   zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
   return first < c.size() ? std::copysign(1.0, c[first]) : 0;

@@ -137,6 +137,8 @@ class Expansion {
   double magnitude_of_rate(Index a);
   double magnitude_of_constraint(Index a);
   Vector rounding_of_multipliers(const std::vector<Index>& held);
+  /// And ||q''||_A at a state, of the terms of the forces, after `acceleration`.
+  double rounding_of_acceleration() { return rounding(0) * norm(magnitudes({}, 0).velocity); }
   /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
   std::vector<double> rounding_of_switch(std::size_t k);
   /// The same of the argument itself, at a state.

@@ -1,0 +1,94 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+/// Arguments of branches, and multipliers, that were 0 for a while.
+using namespace tests;
+using mechanics::MotionStatus;
+
+namespace {
+
+Followed pushed(const std::string& force, double x, double v, double until) {
+  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({x}, {v}), until);
+}
+
+}  // namespace
+
+TEST_CASE("a double zero of an argument changes nothing, however near to it rounding lets the motion come") {
+  struct Case {
+    std::string force, smooth;
+    double x;
+  };
+  const Case cases[] = {{"sign(x'^2) - x", "1 - x", -1},
+                        {"step(-x'^2) - x", "-x", -1},
+                        {"sign(x'^2*(x - 9)^2) - 2*x", "1 - 2*x", 0.3},
+                        {"sign(sin(x')^2) - 2*x", "1 - 2*x", 0.3},
+                        {"atan2(x'^2, x - 5) - 2*x", "atan2(x'^2 + 1e-300, x - 5) - 2*x", -1}};
+  for (const Case& one : cases) {
+    CAPTURE(one.force);
+    const Followed motion = pushed(one.force, one.x, 0, 20), smooth = pushed(one.smooth, one.x, 0, 20);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(smooth.end().q[0]).epsilon(1e-10));
+    CHECK(motion.end().v[0] == doctest::Approx(smooth.end().v[0]).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("an argument too small for a double counts again where it is one") {
+  struct Case {
+    std::string force, smooth;
+    double x, v, until;
+  };
+  const Case cases[] = {{"100*max(exp(-(x - 30)^2), 0)", "100*exp(-(x - 30)^2)", 0, 5, 12},
+                        {"100*abs(exp(-x^2))", "100*exp(-x^2)", 30, -5, 12},
+                        {"if(exp(-x^2) > 0, 100*exp(-x^2), 0)", "100*exp(-x^2)", 30, -5, 12},
+                        {"max(exp(-x), 0)", "exp(-x)", 800, -100, 12},
+                        {"100*max(exp(-(t - 30)^2), 0)", "100*exp(-(t - 30)^2)", 0, 0, 40}};
+  for (const Case& one : cases) {
+    CAPTURE(one.force);
+    const Followed motion = pushed(one.force, one.x, one.v, one.until),
+                   smooth = pushed(one.smooth, one.x, one.v, one.until);
+    CHECK(motion.end().q[0] == doctest::Approx(smooth.end().q[0]).epsilon(1e-11));
+    CHECK(motion.end().v[0] == doctest::Approx(smooth.end().v[0]).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("a body at rest feels its drag and its springs once a pulse has come") {
+  struct Case {
+    std::string force;
+    double until, x;  // x by DOP853 (Hairer, Norsett and Wanner 1993) with 8000 steps
+  };
+  const Case cases[] = {{"10*exp(-50*(t - 4)^2) - x - 3*abs(x')*x'", 8, -0.0950278040},
+                        {"10*exp(-50*(t - 4)^2) - x - max(5*x, 0)", 8, -1.00108860846},
+                        {"10*exp(-50*(t - 4)^2) - x - if(x > 0, 5*x, 0)", 8, -1.00108860846},
+                        {"10*exp(-(t - 30)^2) - x - 3*abs(x')*x'", 40, 0.00542148201}};
+  for (const Case& one : cases) {
+    CAPTURE(one.force);
+    CHECK(pushed(one.force, 0, 0, one.until).end().q[0] == doctest::Approx(one.x).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("what leaves 0 by a power beyond all derivatives has left it") {
+  // x'' = t⁴⁰ is x = t⁴²/1722.
+  CHECK(pushed("3*sign(x) + t^40", 0, 0, 2).end().q[0] ==
+        doctest::Approx(std::pow(2, 42) / 1722 + 6).epsilon(1e-12));
+  CHECK(pushed("2*abs(x) + t^40", 0, 0, 2).end().q[0] ==
+        doctest::Approx(pushed("2*x + t^40", 0, 0, 2).end().q[0]).epsilon(1e-12));
+  const Followed lifted =
+      followed({{"y"}, "y'^2/2", "", {}, {}, {{"y", "t^40"}}, {{"floor", "y >= 0"}}}, state({0}, {0}), 2);
+  CHECK(lifted.end().q[0] == doctest::Approx(std::pow(2, 42) / 1722).epsilon(1e-12));
+  CHECK(lifted.motion.multipliers()[0] == 0);
+}
+
+TEST_CASE("a body at rest under forces that cancel but for rounding waits for what comes") {
+  // ∫ (6 - t) (1 + tanh(10 (t - 3))) dt, and tanh(-30) = -1 in doubles.
+  const Followed switched = pushed("1 + tanh(10*(t - 3))", 0, 0, 6);
+  CHECK(switched.end().q[0] == doctest::Approx(9 + std::pow(std::acos(-1), 2) / 1200).epsilon(1e-12));
+  CHECK(switched.end().v[0] == doctest::Approx(6).epsilon(1e-12));
+  const Followed still = pushed("cos(t)^2 + sin(t)^2 - 1 - x", 0, 0, 6);
+  CHECK(still.motion.status() == MotionStatus::done);
+  CHECK(std::abs(still.end().q[0]) <= 1e-12);
+  CHECK(still.motion.record().steps < 100);
+}
