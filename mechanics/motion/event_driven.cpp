@@ -56,9 +56,7 @@ void Motion::EventDriven::begin(const State& at) {
   state = at;
   start_ = at.t;
   Contacts found = contacts(system, state, options.contact_tolerance, Impending::allowed);
-  // What is above 0 by more than rounding and falls closes when it comes there.
   const auto left_by_rounding = [&](Index a) { return roundings_of_f * epsilon * found.rates.f_scale[a]; };
-  std::erase_if(found.closing, [&](Index a) { return found.rates.f[a] > left_by_rounding(a); });
   done.t = state.t;
   done.q = state.q;
   expansion_.note_reach(state.q);
@@ -68,6 +66,9 @@ void Motion::EventDriven::begin(const State& at) {
     if (const double argument = std::abs(expansion_.switch_argument(k)[0]);
         argument > 0 && argument <= expansion_.rounding_of_argument(k))
       switches.push_back(static_cast<Index>(k));
+  if (!switches.empty()) take_sides_ahead(found, switches);
+  // What is above 0 by more than rounding and falls closes when it comes there.
+  std::erase_if(found.closing, [&](Index a) { return found.rates.f[a] > left_by_rounding(a); });
   std::vector<Index> touching;
   for (const Index a : found.present) {
     if (!is_two_sided(a)) {

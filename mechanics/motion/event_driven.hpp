@@ -98,6 +98,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Zero> left_behind();
   HeldRows::Answer acceleration_off_zero(double tau);
   void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
+  void take_sides_ahead(Contacts& found, const std::vector<Index>& switches);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
   /// is an impact, a separation, or the end, and nothing is left to do.
   bool meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);

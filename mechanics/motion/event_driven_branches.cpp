@@ -54,6 +54,38 @@ std::vector<Index> Motion::EventDriven::find_branches() {
   return at_zero;
 }
 
+/// At a start where arguments are 0: df/dt of contacts on the sides to which the velocity leads, so far as it
+/// tells them, and who is present and closing there. On the side that the text has df/dt says nothing of what
+/// is ahead.
+void Motion::EventDriven::take_sides_ahead(Contacts& found, const std::vector<Index>& switches) {
+  std::vector<double> sides;
+  for (const Index which : switches) sides.push_back(expansion_.branch(static_cast<std::size_t>(which)));
+  try {
+    expansion_.expand({});
+  } catch (const convex::InvalidInput&) {  // undefined on these branches, which need not be those ahead
+    return;
+  }
+  for (std::size_t i = 0; i < switches.size(); ++i) {
+    const auto k = static_cast<std::size_t>(switches[i]);
+    const double speed = expansion_.switch_argument(k)[1];
+    if (!expansion_.depends_on_velocity(k) && std::abs(speed) > expansion_.rounding_of_switch(k)[1])
+      sides[i] = std::copysign(1.0, speed);
+  }
+  for (std::size_t i = 0; i < switches.size(); ++i)
+    expansion_.branch(static_cast<std::size_t>(switches[i])) = sides[i];
+  expansion_.set(state);
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    double& df = found.rates.df[a];
+    const double least = options.contact_tolerance[a] * found.rates.df_scale[a];
+    if (is_two_sided(a) || !(std::abs(expansion_.rate(a) - df) > least)) continue;
+    df = expansion_.rate(a);
+    std::erase(found.closing, a);
+    std::erase(found.present, a);
+    if (found.rates.f[a] > options.contact_tolerance[a] * found.rates.f_scale[a] || df > least) continue;
+    (df < -least ? found.closing : found.present).push_back(a);
+  }
+}
+
 /// The difference of T - V between the branches of a switch, at the zero of its argument: events that
 /// rounding does not tell apart are met at the first of them, where the argument of a later one is not 0 yet,
 /// and T - V with a kink differs by as much of its slope. Branches that jump with it, none of the switches

@@ -150,6 +150,8 @@ class Expansion {
   bool has_open_angle();
   /// Whether a coordinate stands in that argument.
   bool depends_on_position(std::size_t k) const { return depends(k, expression::on_coordinates); }
+  /// Whether a velocity does.
+  bool depends_on_velocity(std::size_t k) const { return depends(k, expression::on_velocities); }
   /// Whether t itself does.
   bool depends_on_time(std::size_t k) const { return depends(k, expression::on_time); }
   double& branch(std::size_t k) { return series_.branches()[k]; }

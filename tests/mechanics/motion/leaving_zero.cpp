@@ -5,7 +5,7 @@
 
 #include "tests/mechanics/motion/followed.hpp"
 
-/// Arguments of branches, and multipliers, that were 0 for a while.
+/// Arguments of branches, and multipliers, that are 0 at the start or for a while.
 using namespace tests;
 using mechanics::MotionStatus;
 
@@ -91,4 +91,30 @@ TEST_CASE("a body at rest under forces that cancel but for rounding waits for wh
   CHECK(still.motion.status() == MotionStatus::done);
   CHECK(std::abs(still.end().q[0]) <= 1e-12);
   CHECK(still.motion.record().steps < 100);
+}
+
+TEST_CASE("a motion that begins on a kink of a contact begins on the side to which its velocity leads") {
+  struct Case {
+    const char* floor;
+    mechanics::State start;
+    double x, y;  // at t = 0.1, by hand: x'' and y'' are those of a slope under the weight 1
+  };
+  const mechanics::State roof = state({0, 0}, {-1, 0}), edge = state({0, 0}, {1, -1});
+  const mechanics::State slope = state({0, 0}, {1, 0.5}), groove = state({0.25, 0}, {-0.5, 0.5});
+  const Case cases[] = {{"y >= min(0, -x)", roof, -0.1, 0},
+                        {"y >= min(-x, 0)", roof, -0.1, 0},
+                        {"y >= if(x > 0, -x, 0)", edge, 0.1025, -0.1025},
+                        {"y >= if(x >= 0, -x, 0)", edge, 0.1025, -0.1025},
+                        {"y >= min(3*x, 0.5*x)", slope, 0.098, 0.049},
+                        {"y >= min(0.5*x, 3*x)", slope, 0.098, 0.049},
+                        {"y >= max(-0.5*x + 0.125, -x + 0.25)", groove, 0.2025, 0.0475},
+                        {"y >= max(-x + 0.25, -0.5*x + 0.125)", groove, 0.2025, 0.0475}};
+  for (const Case& one : cases) {
+    CAPTURE(std::string(one.floor));
+    const Followed motion =
+        followed({{"x", "y"}, "(x'^2+y'^2)/2", "y", {}, {}, {}, {{"floor", one.floor}}}, one.start, 0.1);
+    CHECK(motion.motion.record().impacts == 0);
+    CHECK(motion.end().q[0] == doctest::Approx(one.x).epsilon(1e-12));
+    CHECK(motion.end().q[1] == doctest::Approx(one.y).epsilon(1e-12));
+  }
 }
