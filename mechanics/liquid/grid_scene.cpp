@@ -16,6 +16,7 @@
 #include "mechanics/liquid/largest_pressure.hpp"
 #include "mechanics/liquid/polygon.hpp"
 #include "mechanics/liquid/simplex_cut.hpp"
+#include "mechanics/liquid/wall_corners.hpp"
 
 namespace mechanics::liquid {
 namespace {
@@ -59,9 +60,17 @@ double content(const LiquidScene& scene, const CutCells& cells) {
   return sum;
 }
 
+/// How far p goes on below 0 to the corners of walls. A pressure with that added satisfies all that p* is the
+/// least of, so that p* is between them; in cells at a corner the grid has no node to part at.
+double lacking_at(const std::vector<WallCorner>& corners) {
+  double lacking = 0;
+  for (const WallCorner& corner : corners) lacking = std::max(lacking, -corner.p);
+  return lacking;
+}
+
 /// The walls that push less than they would have to be followed: p = 0 on them, strictly.
 std::vector<std::string> parted_walls(const LiquidScene& scene, const CutCells& cells,
-                                      const CutSolution& found) {
+                                      const CutSolution& found, const std::vector<WallCorner>& corners) {
   double scale = 0;
   for (const WallPiece& wall : cells.walls) scale = std::max(scale, std::abs(wall.load));
   std::vector<bool> parts(scene.parts.size());
@@ -81,6 +90,10 @@ std::vector<std::string> parted_walls(const LiquidScene& scene, const CutCells& 
     const double by_cavity = std::max(0.0, -cells.h[k] * cells.volume[k]);
     if (found.push[k] - by_cavity > digits * scale) parts[wall.part] = true;
   }
+  for (const WallCorner& corner : corners)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (corner.p < 0 && corner.flux[i] < 0)
+        parts[static_cast<std::size_t>(corner.walls[i] - scene.parts.data())] = true;
   std::vector<std::string> names;
   for (std::size_t k = 0; k < parts.size(); ++k)
     if (parts[k]) names.push_back(scene.parts[k].name);
@@ -188,7 +201,8 @@ std::string hidden_between_nodes(const LiquidScene& scene, const CutCells& cells
 
 /// Grids from the first one on until the pressure is known well enough. Empty when the scene is infeasible.
 std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const LiquidAccuracy& accuracy,
-                                           GridLevels& levels, LiquidSolution& solution) {
+                                           GridLevels& levels, LiquidSolution& solution,
+                                           std::vector<WallCorner>& corners) {
   const std::size_t axis = scene.dimension() - 1;
   for (;; levels.refine()) {
     const bool is_closed = !levels.has_pull();
@@ -207,14 +221,16 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     }
     std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
     const CutCells& finest = levels.finest();
-    const LargestPressure largest = largest_pressure(scene, finest, [&](Index k) {
+    const auto value = [&](Index k) {
       return finest.grid.is_unknown(k) ? found[0].q[index_of(k)] : finest.given[index_of(k)];
-    });
+    };
+    const LargestPressure largest = largest_pressure(scene, finest, value);
     solution.largest = largest.p;
     solution.largest_at = largest.at;
+    corners = wall_corners(scene, finest, value);
     solution.error_bound = estimated_grid_error(scene, levels, found, solution.largest) +
                            hidden_pressure(scene, finest, solution.largest) +
-                           hidden_flux(scene, finest, solution.largest);
+                           hidden_flux(scene, finest, solution.largest) + lacking_at(corners);
     solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
     const double size = solution.largest > 0 ? solution.largest : scene.pressure_scale();
     const bool is_close =
@@ -251,7 +267,8 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
     throw convex::InvalidInput(
         "domain: it is not connected, or not by nodes of a grid of " + std::to_string(levels.cells()) +
         " cells; give one part of it, the others files of their own, or give more cells");
-  const std::vector<CutSolution> found = solve_well_enough(scene, accuracy, levels, solution);
+  std::vector<WallCorner> corners;
+  const std::vector<CutSolution> found = solve_well_enough(scene, accuracy, levels, solution, corners);
   solution.unknowns = levels.finest().grid.unknowns();
   solution.cells = levels.cells();
   if (found.empty()) return solution;
@@ -261,7 +278,7 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
       solution.grid_bound = bound;
   require_no_divergence_in_liquid(scene, cells, found.front());
   solution.volume = content(scene, cells);
-  solution.parted_walls = parted_walls(scene, cells, found.front());
+  solution.parted_walls = parted_walls(scene, cells, found.front(), corners);
   solution.empty_parts = empty_parts(scene, cells);
   const auto pressure = std::make_shared<const GridPressure>(levels.take_finest(), found.front().q);
   const auto edge = std::make_shared<const CavityEdge>(pressure->cells(), found.front());
@@ -302,6 +319,8 @@ double least_grid_pressure(const LiquidScene& scene, long cells) {
   });
   for (const convex::Pendant& pendant : grid.grid.pendants)
     least = std::min(least, found.q[index_of(pendant.point)] + pendant.shift);
+  for (const WallCorner& corner : wall_corners(scene, grid, [&](Index k) { return found.q[index_of(k)]; }))
+    least = std::min(least, corner.p);
   constexpr double digits = 1e-9;  // of the solve
   return std::abs(least) <= digits * scale ? 0 : least;
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mechanics/liquid/wall_corners.hpp"
+
 namespace mechanics::liquid {
 namespace {
 
@@ -25,6 +27,7 @@ LargestPressure largest_pressure(const LiquidScene& scene, const CutCells& cells
     const BoundaryPart* part = scene.part_at(vertex);
     if (part != nullptr && part->is_free) offer(scene.free_pressure(*part, vertex), vertex);
   }
+  for (const WallCorner& corner : wall_corners(scene, cells, value)) offer(corner.p, corner.at);
   // Nodes beyond a wall stand for what their cells have of the domain; p there is none of the domain's.
   std::vector<bool> near_wall(slot_of(grid.size()));
   for (const WallPiece& wall : cells.walls) {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "mechanics/liquid/first_change.hpp"
+#include "mechanics/liquid/grid_error.hpp"
 #include "mechanics/liquid/line_scene.hpp"
 #include "mechanics/liquid/parameter_family.hpp"
 
@@ -97,6 +98,7 @@ OnsetSearch find_onset(const LiquidText& text, const std::string& parameter, con
   const std::array<long, 3> second_cells{128, 64, 16};
   LiquidOnset before = root(least_on(first_cells[axis]), found.between->first, found.between->second,
                             solve_accuracy, least_size);
+  std::vector<double> changes;  // finest first
   double step = 1e-4 * std::max(std::abs(before.value), 1e-3 * std::abs(start));
   for (long cells = second_cells[axis]; cells <= most_cells[axis]; cells *= 2) {
     const Sign least = least_on(cells);
@@ -104,9 +106,11 @@ OnsetSearch find_onset(const LiquidText& text, const std::string& parameter, con
     if (!near) return {std::nullopt, before.value, made.is_sampled};
     const LiquidOnset here = root(least, near->first, near->second, solve_accuracy, least_size);
     const double change = here.value - before.value;
+    changes.insert(changes.begin(), std::abs(change));
     // As far as the error is of second order a third of the change is left.
     made.onset = {here.value + change / 3,
-                  std::abs(change) + solve_accuracy * std::max(std::abs(here.value), least_size)};
+                  std::max(std::abs(change), error_by_differences(scene, changes, cells)) +
+                      solve_accuracy * std::max(std::abs(here.value), least_size)};
     before = here;
     step = std::max(2 * std::abs(change), 1e-6 * std::abs(here.value));
     const double asked = accuracy.part() * std::abs(made.onset->value);

@@ -223,3 +223,55 @@ TEST_CASE("a thin layer of force between the points at which loads are taken is 
   CHECK(outcome.code == 3);
   CHECK(OnsetJson::parse(outcome.out)["certificate"]["error_bound"].get<double>() >= 1.4e-2);
 }
+
+namespace {
+
+/// Under a pressure that is linear, from the left, in a tank whose walls meet between the nodes of any grid.
+std::string tank(const std::string& vertices, const std::string& pressure, const std::string& a) {
+  return "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"polygon(vertices=" + vertices +
+         ")\"\ndensity = 1000\nforce = [\"a\", \"-9.81\"]\nfree = { mouth = { where = \"x <= 0\", pressure = "
+         "\"" +
+         pressure +
+         "\" } }\nwalls = { rest = { where = \"true\", acceleration = \"0\" } }\n[liquid.parameters]\na = " +
+         a + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("a liquid parts first at a corner of walls, between the nodes of a grid") {
+  // p = 12000 - 9810 y + 1000 a x, least at the corner.
+  struct Corner {
+    const char* vertices;
+    double x, y;
+  };
+  const Folder folder;
+  for (const Corner& one : {Corner{"[[0,0],[3,0],[3,0.61],[0,1]]", 3, 0.61},
+                            {"[[0,0],[2.9,0],[2.9,0.77],[0,1]]", 2.9, 0.77},
+                            {"[[0,0],[2.2,0.1],[2.3,0.83],[0,1.1]]", 2.3, 0.83}}) {
+    CAPTURE(std::string(one.vertices));
+    const double value = -(12000 - 9810 * one.y) / (1000 * one.x);
+    const std::string file = folder.write("tank.toml", tank(one.vertices, "12000 - 9810*y", "0"));
+    const OnsetJson found = OnsetJson::parse(run({"solve", "--json", "--onset", "a", file}).out);
+    const double error = std::abs(found["onset"]["a"].get<double>() - value);
+    CHECK(error <= found["onset_error"].get<double>());
+    CHECK(error <= 1e-6);
+    // Beyond it the wall parts, by less than a cell: p there is off by no more than what is told.
+    const double beyond = value * (1 + 1e-4), lacks = 1000 * one.x * std::abs(value) * 1e-4;
+    const OnsetJson parted =
+        OnsetJson::parse(run({"solve", "--json", "--set", "a=" + std::to_string(beyond), file}).out);
+    CHECK(parted["parted_walls"] == OnsetJson::array({"rest"}));
+    CHECK(parted["certificate"]["error_bound"].get<double>() >= 0.9 * lacks);
+    const OnsetJson whole = OnsetJson::parse(
+        run({"solve", "--json", "--set", "a=" + std::to_string(value * (1 - 1e-4)), file}).out);
+    CHECK(whole["parted_walls"].empty());
+  }
+}
+
+TEST_CASE("p is largest at a corner of walls, between the nodes of a grid") {
+  const Folder folder;
+  const std::string file =
+      folder.write("tank.toml", tank("[[0,0],[3,0.13],[3,0.61],[0,1]]", "12000 - 9810*y", "2"));
+  const OnsetJson found = OnsetJson::parse(run({"solve", "--json", file}).out);
+  CHECK(found["pressure"]["max"].get<double>() == doctest::Approx(12000 - 9810 * 0.13 + 6000).epsilon(1e-9));
+  CHECK(found["pressure"]["at"]["x"].get<double>() == doctest::Approx(3));
+}
