@@ -43,6 +43,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_switch_.assign(expansion_.switches(), 0);
   branches_behind_.assign(expansion_.switches(), 0.0);
   left_of_zero_.assign(expansion_.switches(), 0.0);
+  is_crossed_.assign(expansion_.switches(), true);
   rounding_of_zero_.resize(expansion_.switches());
   is_weak_.assign(m, false);
   least_multiplier_.assign(m, 0.0);

@@ -137,6 +137,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Index> persist_;                                       // held on the next arc
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<double> branches_behind_;                              // by switch, before the event
+  std::vector<bool> is_crossed_;      // by switch: its argument comes to 0 in the event, and does not go back
   std::vector<double> left_of_zero_;  // by switch: what rounding may have made of one that stays 0, so far
   std::vector<std::vector<double>> rounding_of_zero_;  // and makes of it on the next arc, by order
   std::vector<ContactQuestion::Unloaded> unloaded_;    // in the event at hand

@@ -42,8 +42,12 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   std::vector<Index> closing, touching, switches, held, lost;
   for (const Index a : persist_)
     if (!is_two_sided(a)) held.push_back(a);
+  is_crossed_.assign(expansion_.switches(), false);
   for (const Zero& zero : zeros) {
-    if (zero.of == Zero::Of::branch) switches.push_back(zero.which);
+    if (zero.of == Zero::Of::branch) {
+      switches.push_back(zero.which);
+      is_crossed_[static_cast<std::size_t>(zero.which)] = !zero.is_touch;
+    }
     if (zero.of != Zero::Of::constraint) continue;
     // Where its gradient vanishes a contact is touched, and d²f/dt² tells whether it opens.
     const bool is_lost = expansion_.has_lost_gradient(zero.which);

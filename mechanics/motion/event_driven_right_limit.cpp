@@ -153,9 +153,10 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
 }
 
 /// The right limit on the branches that it itself takes. First are those of the text at a start, where
-/// sign(0) = 0, and at an event those across; then the signs with which the arguments go on from there, as
-/// long as they are new; 0 for those that turn back and forth; then all others, 0 for those that were seen to
-/// stay. An argument that stays 0 has the branch 0; only where none is found so, that beside it.
+/// sign(0) = 0, and at an event those across of what crosses 0, those of before of what touches it; then the
+/// signs with which the arguments go on from there, as long as they are new; 0 for those that turn back and
+/// forth; then all others, 0 for those that were seen to stay. An argument that stays 0 has the branch 0;
+/// only where none is found so, that beside it.
 std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
                                                                      std::vector<Index>& at_zero) {
   const ContactQuestion question = question_of(contacts);
@@ -173,7 +174,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   for (std::size_t k = 0; k < switches; ++k) across.push_back(expansion_.branch(k));
   for (const Index which : at_zero) {
     double& branch = across[static_cast<std::size_t>(which)];
-    branch = begins ? 0 : -branch;
+    branch = begins ? 0 : is_crossed_[static_cast<std::size_t>(which)] ? -branch : branch;
   }
   enum class Found { nothing, excluded, beside, itself };
   std::optional<ContactAnswer> answer;
