@@ -57,7 +57,7 @@ class Motion::EventDriven final : public Motion::Course {
   void handle(const std::vector<Zero>& zeros);
   double rounding_of_f(Index a);
   /// Whether f, as the arc behind has it, comes to its least value so near that it is 0 there but for
-  /// rounding.
+  /// rounding: a touch, and no impact, whatever the speed that rounding leaves.
   bool turns_within_rounding(Index a);
   void stop_at_vanishing_gradient(Index a);
   /// Gradients of these contacts that are 0 but for rounding count as 0 from here on.

@@ -50,12 +50,13 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
     }
     if (zero.of != Zero::Of::constraint) continue;
     // Where its gradient vanishes a contact is touched, and d²f/dt² tells whether it opens.
-    const bool is_lost = expansion_.has_lost_gradient(zero.which);
-    if (is_lost && !turns_within_rounding(zero.which)) return stop_at_vanishing_gradient(zero.which);
+    const bool is_lost = expansion_.has_lost_gradient(zero.which),
+               falls = expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which),
+               turns = (is_lost || (falls && !zero.is_touch)) && turns_within_rounding(zero.which);
+    if (is_lost && !turns) return stop_at_vanishing_gradient(zero.which);
     if (is_lost) lost.push_back(zero.which);
-    const bool closes = !is_lost && expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
-    (closes && !zero.is_touch && !zero.is_soft ? closing : touching).push_back(zero.which);
-    if (zero.is_touch)
+    (falls && !turns && !zero.is_touch && !zero.is_soft ? closing : touching).push_back(zero.which);
+    if (zero.is_touch || (turns && !is_lost))
       remark(RemarkKind::touch, constraint_name(zero.which) +
                                     " is touched and left within rounding: data that differ in their last "
                                     "digits make it an impact, or "

@@ -111,14 +111,17 @@ void Motion::EventDriven::land_softly(Zero& zero, double end) const {
   zero.at = landed.value_or(zero.at);
 }
 
-/// Of a contact that closes. Without t, its terms are about as large as those of its differential.
 bool Motion::EventDriven::turns_within_rounding(Index a) {
   const std::span<const double> c = coefficients(done.f, a);
-  const double rate = expansion_.rate(a),
-               rounding = rounding_of_f(a) + epsilon * sum_of_terms(c, done.length);
-  return rate * rate <= 2 * curvature(c, done.length).value * rounding;
+  const double rate = expansion_.rate(a), bend = curvature(c, done.length).value;
+  if (!(bend > 0)) return false;
+  const double rounding =
+      std::max(rounding_of_f(a), roundings_of_closed * epsilon * expansion_.magnitude_of_constraint(a)) +
+      epsilon * sum_of_terms(c, done.length);
+  return rate * rate <= 2 * bend * rounding;
 }
 
+/// Of a contact that closes. Without t, its terms are about as large as those of its differential.
 double Motion::EventDriven::rounding_of_f(Index a) {
   if (!expansion_.uses_time()) return epsilon * expansion_.position_scale(a);
   return epsilon * (expansion_.magnitude_of_constraint(a) + std::abs(state.t * expansion_.rate(a)));

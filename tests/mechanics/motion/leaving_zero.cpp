@@ -118,3 +118,27 @@ TEST_CASE("a motion that begins on a kink of a contact begins on the side to whi
     CHECK(motion.end().q[1] == doctest::Approx(one.y).epsilon(1e-12));
   }
 }
+
+TEST_CASE(
+    "a piston that grazes its plate at each dead centre is not struck by what rounding leaves of that") {
+  // Written with the rod as a constraint, and with the piston's place as a function of the angle.
+  const SystemText rod{{"a", "x"},
+                       "0.01*a'^2 + 0.4*x'^2",
+                       "",
+                       {},
+                       {},
+                       {{"x", "-400"}, {"a", "3"}},
+                       {{"rod", "(x - 0.05*cos(a))^2 + (0.05*sin(a))^2 = 0.04"}, {"plate", "x <= 0.25"}}};
+  const std::string place = "(0.05*cos(a) + sqrt(0.04 - (0.05*sin(a))^2))";
+  const SystemText angle{{"a"}, "0.01*a'^2 + 0.4*x'^2",  "400*x - 3*a", {}, {{"x", place}},
+                         {},    {{"plate", "x <= 0.25"}}};
+  for (const double speed : {15, 16, 18, 19, 20, 22, 23}) {
+    CAPTURE(speed);
+    const Followed by_rod = followed(rod, state({0, 0.25}, {speed, 0}), 1),
+                   by_angle = followed(angle, state({0}, {speed}), 1);
+    CHECK(by_rod.motion.status() == MotionStatus::done);
+    CHECK(by_rod.motion.record().impacts == 0);
+    CHECK(by_angle.motion.record().impacts == 0);
+    CHECK(by_rod.end().v[0] == doctest::Approx(by_angle.end().v[0]).epsilon(1e-11));
+  }
+}
