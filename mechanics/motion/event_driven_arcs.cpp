@@ -80,7 +80,7 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   q2_ -= expected_q2_;
   const double defect = (expansion_.norm(q2_) + pull) * tau * tau;
   const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
-  const double orders = static_cast<double>(next.q.cols());
+  const double orders = is_cut_ ? 1 : static_cast<double>(next.q.cols());
   if (defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding) return true;
   // Forces that cancel have the rounding of their terms.
   return defect <= expansion_.rounding_of_acceleration() * tau * tau;
@@ -168,6 +168,11 @@ void Motion::EventDriven::fill_next() {
     copy(next.f, a, expansion_.constraint(a));
   }
   next.persist = persist_;
+  // A step of few orders leads to where the series goes on; or the motion ends, or, from rest, may not be the
+  // only one, as that of x'' = √x.
+  const bool was_cut = is_cut_;
+  is_cut_ = expansion_.cut() > 0;
+  if (is_cut_ && (was_cut || next.q.middleCols(1, 2).isZero(0))) expansion_.refuse_cut();
   acceleration = 2 * next.q.col(2);
   multipliers = next.lambda.col(0);
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
@@ -178,8 +183,8 @@ void Motion::EventDriven::fill_next() {
   const double told = step_ahead_;
   for (const FunctionArgument& one : expansion_.arguments())
     step_ahead_ = seen_length(expansion_.argument(one), one.of, step_ahead_, reach_);
-  is_blind_ = !expansion_.arguments().empty() &&
-              (step_ahead_ < told || std::isinf(told) || is_rising(sizes_, step_ahead_));
+  is_blind_ = is_cut_ || (!expansion_.arguments().empty() &&
+                          (step_ahead_ < told || std::isinf(told) || is_rising(sizes_, step_ahead_)));
   watch();
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])

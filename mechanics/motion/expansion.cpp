@@ -108,6 +108,8 @@ namespace {
 
 }  // namespace
 
+void Expansion::refuse_cut() const { refuse_order(cut_); }
+
 /// Something that enters the equations is not finite.
 void Expansion::check_finite() const {
   double spoiled = 0;  // 0 times a number, unless it is not finite
@@ -180,8 +182,8 @@ HeldRows Expansion::held_rows(const std::vector<Index>& constraints) const {
 }
 
 /// Coefficient k of p, F and u is known, and the velocities of order k + 1 are as if they were 0:
-/// r with A v_(k+1) = r + Uᵀ lambda_k / (k + 1).
-void Expansion::begin_order(int k) {
+/// r with A v_(k+1) = r + Uᵀ lambda_k / (k + 1). False where that is not finite.
+bool Expansion::begin_order(int k) {
   const expression::Program& program = equations_.program;
   const auto order = static_cast<std::size_t>(k);
   if (k == 0) series_.restart();
@@ -210,7 +212,7 @@ void Expansion::begin_order(int k) {
     spoiled += 0 * r_[i];
   }
   for (const Slot slot : equations_.rate) spoiled += 0 * series_.at_order(slot);
-  if (spoiled != 0) refuse_order(k + 2);
+  return spoiled == 0;
 }
 
 Vector Expansion::missing_rate(const std::vector<Index>& constraints) const {
@@ -234,7 +236,7 @@ void Expansion::give_multipliers(int k, const std::vector<Index>& constraints, c
 
 HeldRows::Answer Expansion::acceleration(const std::vector<Index>& held) {
   pushing_.clear();
-  begin_order(0);
+  if (!begin_order(0)) refuse_order(2);
   force_ = r_;
   std::optional<HeldRows> rows;
   return solve_held(held, rows);
@@ -259,11 +261,16 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   std::fill(lambda_.begin(), lambda_.end(), 0.0);
   std::vector<Index> persist = contacts.held, open = contacts.open;
   pushing_ = persist;
+  cut_ = 0;
   if (persist.empty() && open.empty() && factor_.is_made() && expand_free()) return answer;
   std::optional<HeldRows> rows;
   magnitudes_found_ = 0;
   for (int k = 0; k <= order_ - 2; ++k) {
-    begin_order(k);
+    if (!begin_order(k)) {
+      if (k == 0 || !open.empty()) refuse_order(k + 2);
+      cut_ = k + 2;
+      break;
+    }
     if (k == 0) force_ = r_;
     const HeldRows::Answer solved = solve_held(persist, rows);
     give_multipliers(k, persist, solved.lambda * (k + 1));
@@ -278,8 +285,14 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
     }
     if (ends_by(k)) break;
   }
-  for (std::size_t i = 0; i < equations_.program.coordinates(); ++i)
-    series_.end(equations_.program.coordinate(i), series_.at_order(equations_.program.velocity(i)) / order_);
+  if (cut_ > 0) series_.cut();
+  for (std::size_t i = 0; i < equations_.program.coordinates(); ++i) {
+    const Slot q = equations_.program.coordinate(i), v = equations_.program.velocity(i);
+    if (cut_ > 0)
+      series_.end(q, cut_ - 1, series_.at_order(q));
+    else
+      series_.end(q, order_, series_.at_order(v) / order_);
+  }
   answer.persist = std::move(persist);
   answer.persist.insert(answer.persist.end(), open.begin(), open.end());
   find_constraints();

@@ -113,6 +113,12 @@ class Expansion {
   /// The higher coefficients, and who persists.
   ContactAnswer expand(const ContactQuestion& contacts);
 
+  /// The order from which on a derivative of the motion is not finite at the state, as that of a drag |v| v
+  /// at rest: so far the series of the last `expand` go. 0 where there is none.
+  int cut() const { return cut_; }
+  /// Throws InvalidInput, saying so.
+  [[noreturn]] void refuse_cut() const;
+
   int order() const { return order_; }
   Index coordinates() const { return equations_.coordinates(); }
   Index constraints() const { return equations_.constraints(); }
@@ -171,7 +177,7 @@ class Expansion {
   void find_inertia();
   void take_branches();
   void check_finite() const;
-  void begin_order(int k);
+  bool begin_order(int k);
   double magnitude_of(expression::Slot series);
   HeldRows::Answer solve_held(const std::vector<Index>& held, std::optional<HeldRows>& rows) const;
   double left_of_push(Index a, const Vector& u) const;
@@ -202,6 +208,7 @@ class Expansion {
   const LagrangeEquations& equations_;
   const TaylorSteps& steps_;
   int order_;
+  int cut_ = 0;
   TaylorSeries series_;
   State state_;
   bool has_branches_ = false;

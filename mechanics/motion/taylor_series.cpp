@@ -222,6 +222,13 @@ void TaylorSeries::restart() {
   found_ = order_;
 }
 
+void TaylorSeries::cut() {
+  for (const Slot series : kept_) {
+    double *const first = at(series), *const end = first + width_;
+    std::fill(std::find_if_not(first + 1, end, [](double c) { return std::isfinite(c); }), end, 0.0);
+  }
+}
+
 /// Rows are found one after the other: each may read those before it.
 double TaylorSeries::of_row(std::size_t number) const {
   const TaylorRows::Row& row = rows_.rows[number];

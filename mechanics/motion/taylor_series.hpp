@@ -55,7 +55,9 @@ class TaylorSeries {
   /// From this order on the series that are kept, but for variables, are 0.
   int found() const { return found_; }
   /// The last coefficient of a variable, which nothing depends on any more.
-  void end(Slot variable, double coefficient) { at(variable)[order_] = coefficient; }
+  void end(Slot variable, int k, double coefficient) { at(variable)[k] = coefficient; }
+  /// From its first coefficient on that is not finite a series counts as 0.
+  void cut();
 
   /// The recurrences, and their terms with the partial derivatives at order 0.
   const TaylorRows& rows() const { return rows_; }

@@ -163,3 +163,32 @@ TEST_CASE("two touches within one step are two events, and no impact") {
   }
   CHECK(found.end().q[0] == doctest::Approx(4).epsilon(1e-13));
 }
+
+TEST_CASE(
+    "a body dropped from rest falls through air whose drag is |v| v, in as many coordinates as it has") {
+  // The second derivative of |v| v at v = 0 is not defined; v = -v_t tanh(g t/v_t), v_t = √(g/k).
+  const double g = 9.81, k = 0.1, limit = std::sqrt(g / k), t = 2;
+  for (const char* speed : {"sqrt(x'^2 + y'^2)", "hypot(x', y')", "norm([x', y', 0])"}) {
+    CAPTURE(std::string(speed));
+    const std::string drag = "-0.1*" + std::string(speed);
+    const Followed motion = followed(
+        {{"x", "y"}, "(x'^2 + y'^2)/2", "9.81*y", {}, {}, {{"x", drag + "*x'"}, {"y", drag + "*y'"}}, {}},
+        state({0, 0}, {0, 0}), t);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[1] == doctest::Approx(-std::log(std::cosh(g * t / limit)) / k).epsilon(1e-12));
+    CHECK(motion.end().v[1] == doctest::Approx(-limit * std::tanh(g * t / limit)).epsilon(1e-12));
+    CHECK(motion.motion.record().steps < 50);
+  }
+}
+
+TEST_CASE(
+    "where a force has no derivative at the start a motion that moves goes on, and one at rest is refused") {
+  const auto along = [](const std::string& force, double v) {
+    return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {v}), 0.5);
+  };
+  // ½ v² - ⅔ x^1.5 = ½ by the energy; the rest of x'' = √x is one of many motions from there.
+  const Followed moving = along("sqrt(x)", 1);
+  const double x = moving.end().q[0], v = moving.end().v[0];
+  CHECK(v * v / 2 - 2 * std::pow(x, 1.5) / 3 == doctest::Approx(0.5).epsilon(1e-10));
+  CHECK_THROWS_WITH_AS(along("sqrt(x)", 0), doctest::Contains("order 3 is not finite"), convex::InvalidInput);
+}
