@@ -160,13 +160,14 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
   time_of_kinks_ = since_start_;
   const double least = record.steps == 0 ? 1 : 0;  // a start is known to the contact tolerance only
   const double length = record.steps == 0 ? 0 : last_length_;
-  std::vector<Index> closing, opening, others;
+  std::vector<Index> closing, opening, others, released;
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const bool is_contact = is_among(contacts, a);
     if (is_two_sided(a) && !behind) continue;
     // What is held, or has just come to rest, is at f = df/dt = 0 on the branches behind, whatever rounding
     // makes of it.
-    const bool was_at_0 = behind && (is_contact || is_two_sided(a));
+    const bool is_leaving = zeros_of_f_[static_cast<std::size_t>(a)] > 0;
+    const bool was_at_0 = behind && ((is_contact && !is_leaving) || is_two_sided(a));
     const double f = expansion_.f(a) - (was_at_0 ? behind->f[a] : 0),
                  rate = expansion_.rate(a) - (was_at_0 ? behind->rate[a] : 0);
     const double tolerance = options.contact_tolerance[a];
@@ -193,9 +194,10 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
     }
     if (!is_contact) continue;
     const double rate_left = tolerance * std::max(least, rate_scale) + expansion_.rounding_of_rate(a);
-    if (f > f_left || rate > rate_left)
+    if (f > f_left || rate > rate_left) {
       opening.push_back(a);
-    else
+      if (!is_leaving) released.push_back(a);
+    } else
       (rate < -rate_left ? closing : others).push_back(a);
     if (f > f_left) continue;
     zeros_of_f_[static_cast<std::size_t>(a)] = rate > rate_left ? 1 : 0;
@@ -209,7 +211,7 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
     return true;
   }
   if (closing.empty()) {
-    if (record.steps > 0) event(EventKind::release, opening, state.v);
+    if (record.steps > 0 && !released.empty()) event(EventKind::release, released, state.v);
     behind_ = behind;
     begin_arc(others, switches);
     return true;
@@ -218,6 +220,36 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
     if (zeros_of_f_[static_cast<std::size_t>(a)] > 0) others.push_back(a);
   collide(closing, others, switches);
   return true;
+}
+
+/// Of these contacts those whose df/dt changes with one of these branches.
+std::vector<Index> Motion::EventDriven::with_kinks(const std::vector<Index>& contacts,
+                                                   const std::vector<Index>& switches) {
+  std::vector<Index> found;
+  if (contacts.empty() || switches.empty()) return found;
+  std::vector<std::pair<double, double>> range(contacts.size(), {INFINITY, -INFINITY});
+  for (const Index which : switches) {
+    double& branch = expansion_.branch(static_cast<std::size_t>(which));
+    const double before = branch;
+    for (const double side : {-1.0, 1.0}) {
+      branch = side;
+      try {
+        expansion_.set(state);
+      } catch (const convex::InvalidInput&) {  // undefined there, which is no kink
+        continue;
+      }
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        auto& [low, high] = range[k];
+        low = std::min(low, expansion_.rate(contacts[k]));
+        high = std::max(high, expansion_.rate(contacts[k]));
+      }
+    }
+    branch = before;
+  }
+  expansion_.set(state);
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (range[k].first < range[k].second) found.push_back(contacts[k]);
+  return found;
 }
 
 /// Whether gradients of contacts change with these branches.

@@ -234,7 +234,11 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     take_note_of_leaving();
     after = branches_after_jump(before_jump);
   }
-  begin_arc(resting, after);
+  // Beside a kink the side that a contact leaves to may not let it go.
+  std::vector<Index> leaving;
+  for (std::size_t k = 0; k < present.size(); ++k)
+    if (!is_two_sided(present[k]) && !is_among(resting, present[k])) leaving.push_back(present[k]);
+  begin_arc(united(resting, with_kinks(leaving, after)), after);
   if (status == MotionStatus::done) release_event(held, state.v);
 }
 

@@ -295,3 +295,16 @@ TEST_CASE("a branch goes on where another makes its argument jump off 0, or onto
     CHECK(motion.end().v[0] == doctest::Approx(one.v).epsilon(1e-12));
   }
 }
+
+TEST_CASE(
+    "an impact at the bottom of a groove that sends a body against its other side strikes there at once") {
+  // On (-4, 1) with e = 1/2: (2, -0.5) is (-1, 0.25) after it; on (1, 1): (-0.4375, 0.8125).
+  SystemText groove = particle_on("y >= max(4*x, -x)");
+  groove.forces = {{"x", "3"}, {"y", "0.5"}};
+  const Followed motion = followed(groove, state({0, 0}, {2, -0.5}), 0.01, restitution(groove, 0.5));
+  REQUIRE(motion.of(EventKind::impact).size() == 2);
+  CHECK((motion.of(EventKind::impact)[1].velocity_after - mechanics::Vector{{-0.4375, 0.8125}}).norm() <=
+        1e-13);
+  CHECK(motion.end().v[0] == doctest::Approx(-0.4075).epsilon(1e-12));
+  CHECK(motion.motion.status() == MotionStatus::done);
+}
