@@ -57,6 +57,11 @@ Exit write_starting_file(const NewOptions& options) {
       fmt::print("{}", file.text);
       return Exit::solved;
     }
+    const std::size_t dot = path.rfind('.');
+    if (dot == std::string::npos || path.substr(dot) != ".toml")
+      throw convex::InvalidInput(
+          "a starting file is TOML, with its comments; name it .toml, and `moreau convert` writes other "
+          "forms");
     write_new_file(path, file.text);
     const bool moves = file.text.find("\n[simulate]") != std::string_view::npos;
     if (!options.quiet)

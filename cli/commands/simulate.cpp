@@ -19,12 +19,20 @@
 #include "cli/resumed_state.hpp"
 #include "cli/scene.hpp"
 #include "convex/nearest_name.hpp"
+#include "mechanics/gauss_problem.hpp"
 #include "mechanics/motion/motion.hpp"
 
 namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
+
+/// Of what is not finite at a state `solve` tells the place.
+void require_finite(const mechanics::LagrangianSystem& system, const mechanics::State& state) {
+  constexpr double any = 1e100;
+  const auto m = static_cast<convex::Index>(system.constraints().size());
+  static_cast<void>(mechanics::gauss_problem(system, state, mechanics::Vector::Constant(m, any)));
+}
 
 /// What `moreau simulate` is told.
 struct SimulateOptions : FileOptions, MotionChoice {
@@ -186,6 +194,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
     begun.emplace(*system, state, chosen);
   } catch (const InvalidInput& error) {
     if (options.resume) throw InvalidInput("--resume " + *options.resume + ": " + error.what());
+    if (!error.place()) require_finite(*system, state);
     throw InvalidInput(error.what(), error.place().value_or(text->system.kinetic.begin));
   }
   mechanics::Motion& motion = *begun;

@@ -195,6 +195,10 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
   if (says(description, "dangling comma")) return "a comma behind the last entry of { }; take it out";
   if (says(description, "inline table: expected comma"))
     return "two entries of { } without a comma between them; write { x = 0.0, y = 0.0 }";
+  const bool is_of_letters =
+      spot.here < spot.line.size() && static_cast<unsigned char>(spot.line[spot.here]) >= 0x80;
+  if (is_of_letters && (says(description, "inline table") || says(description, "root table")))
+    return "a key with a letter beyond a to z; names have none, write phi for φ";
   if (says(description, "inline table")) return "no } closes this {; a table in { } stands on one line";
   if (says(description, "array: expected comma"))
     return "a list without its ], or two entries without a comma between them; write [1, 2]";
