@@ -19,6 +19,7 @@
 #include "cli/report/conjugate_formula.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "convex/proved_prox/proved_conjugate.hpp"
 
 namespace cli::inline commands {
@@ -163,8 +164,10 @@ std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAns
                   ? "NOT proved: " + answer.proof->why_none + ".\n"
                   : fmt::format("Proved: its error is at most {}.\n", error_text(answer.value->error));
     if (answer.status != convex::Status::solved)
-      text += fmt::format("NOT known to the accuracy that was asked for: its error may be {:.1e}.\n",
-                          answer.value->error);
+      text +=
+          "NOT known to the accuracy that was asked for: " +
+          (std::isfinite(answer.value->error) ? fmt::format("its error may be {:.1e}.\n", answer.value->error)
+                                              : "nothing is known of its error.\n");
   }
   return text;
 }
@@ -175,7 +178,7 @@ Exit tell_conjugate(const FunctionOptions& options) {
     const ConjugateQuestion question = read_question(options, source);
     const convex::Function g = question.f.conjugate(question.W);
     ConjugateAnswer answer{g, domain_text(g, question.W.dimension()), std::nullopt};
-    if (question.y) answer.value = g.evaluate(*question.y);
+    if (question.y) answer.value = convex::conjugate_value(question.f, *question.y, question.W);
     if (options.certify || in_fractions(options)) prove_value(question, options, answer);
     answer.status = status_of(answer.value, options);
     if (options.json)

@@ -101,3 +101,16 @@ TEST_CASE("a value that work cut short is denied by the other prox") {
   const Decomposition split = split_of(question);
   CHECK(error_of(split, question) <= 1e-3);
 }
+
+TEST_CASE("no value of a conjugate is told that the supremum surpasses at the prox") {
+  // At (300, 0.125, 360000), in the cone, (x|y) - f(x) = -359702; x = 0 has -360300, and that was told.
+  const Function f =
+      samples::function("sum(rotated_second_order_cone(),translate(norm1(1),[299,0,360001]))", 3);
+  const Value told = conjugate_value(f, Vector{{151, -179999, -1.0625}}, Metric::identity(3));
+  CHECK(told.value + told.error >= -359702.000001);
+  // Where nothing is wrong nothing is denied.
+  const Value plain =
+      conjugate_value(samples::function("norm1()", 2), Vector{{0.5, -1}}, Metric::identity(2));
+  CHECK(plain.value == 0);
+  CHECK(plain.error <= 1e-15);
+}
