@@ -15,6 +15,9 @@ constexpr double jumped = 0x1p26;
 /// An argument at 0 is so within so many times what its rounding, and that of the time, leave of it.
 constexpr double roundings_at_zero = 4;
 
+/// A series is known at the end of its arc to so many roundings of what it is the sum of.
+constexpr double roundings_of_series = 16;
+
 /// Of so many arguments at 0 all branches are tried.
 constexpr std::size_t most_tried = 8;
 
@@ -38,7 +41,6 @@ double Motion::EventDriven::terms_of_argument(std::size_t k, double tau) const {
 
 /// Whether an argument is 0 at the end of the arc, as far as its series there tells.
 bool Motion::EventDriven::is_at_zero_of_arc(std::size_t k) const {
-  constexpr double roundings_of_series = 16;
   return std::abs(expansion_.switch_argument(k)[0]) <=
          roundings_of_series * epsilon * terms_of_argument(k, done.length);
 }
@@ -109,7 +111,11 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
 /// of a double zero, which is met a little beside.
 double Motion::EventDriven::sign_ahead(std::size_t k) {
   const std::span<const double> c = expansion_.switch_argument(k);
-  const std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
+  std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
+  // A velocity that comes to 0 has the rounding of what it was.
+  if (record.steps > 0 && done.length > 0 && by_rounding.size() > 1)
+    by_rounding[1] = std::max(
+        by_rounding[1], roundings_of_series * epsilon * terms_of_argument(k, done.length) / done.length);
   // One that contains others at 0 may have jumped off it with them: it is farther than the time of the event
   // is uncertain.
   const double moment = record.steps == 0 ? 0 : rounding_of_time(0);
@@ -122,12 +128,15 @@ double Motion::EventDriven::sign_ahead(std::size_t k) {
     if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
     ++first;
   }
-  if (first > 0 && farthest > 0) {
+  if (first > 0 && first < c.size() && farthest > 0) {
     const auto width = [&](std::size_t j) {
       return std::pow(farthest / std::abs(c[j]), 1 / static_cast<double>(j));
     };
     for (std::size_t j = first + 1; j < c.size(); ++j)
       if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;
+    // What is left of a rest moves on by itself, and stays within that for as long as the arc behind was.
+    const bool is_left = c[0] != 0 || (c.size() > 1 && c[1] != 0);
+    if (is_left && record.steps > 0 && width(first) > done.length && done.length > 0) first = c.size();
   }
   zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
   return first < c.size() ? std::copysign(1.0, c[first]) : 0;

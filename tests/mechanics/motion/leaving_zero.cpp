@@ -142,3 +142,14 @@ TEST_CASE(
     CHECK(by_rod.end().v[0] == doctest::Approx(by_angle.end().v[0]).epsilon(1e-11));
   }
 }
+
+TEST_CASE(
+    "a body that comes to rest at the bottom of a kink stays, whatever rounding leaves of its velocity") {
+  for (const char* kink : {"sign(x)", "sign(sin(3*x))"}) {
+    CAPTURE(std::string(kink));
+    const Followed motion = pushed("if(t < 1, -2, -" + std::string(kink) + " - 0.5*x)", -1, 2, 1.5);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(std::abs(motion.end().q[0]) <= 1e-14);
+    CHECK(motion.motion.record().steps < 20);
+  }
+}
