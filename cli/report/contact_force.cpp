@@ -24,6 +24,14 @@ Vector gradient_with(const Scene& scene, Index constraint, Index coordinate, dou
   return gradient(scene, constraint, moved);
 }
 
+/// The gradient at another state, at which no entry is 0 that is another one elsewhere, as that of the x of a
+/// string that hangs vertically.
+Vector gradient_elsewhere(const Scene& scene, Index constraint) {
+  mechanics::State moved = scene.state;
+  for (Index i = 0; i < moved.q.size(); ++i) moved.q[i] += 1.0 / 16 / static_cast<double>(1 + i);
+  return gradient(scene, constraint, moved);
+}
+
 /// Whether a coordinate is an Euler parameter of a body: `b_e0` beside the constraint `b_unit`.
 bool is_euler_parameter(const Scene& scene, Index coordinate) {
   const std::string& name = scene.coordinates[static_cast<std::size_t>(coordinate)];
@@ -68,8 +76,9 @@ std::optional<double> force_per_multiplier(const Scene& scene, Index constraint)
   bool is_linear = true, is_between = false;
   double length = 0;
   try {
+    const Vector elsewhere = gradient_elsewhere(scene, constraint);
     for (Index i = 0; i < u.size(); ++i) {
-      if (u[i] == 0 || is_euler_parameter(scene, i)) continue;
+      if ((u[i] == 0 && elsewhere[i] == 0) || is_euler_parameter(scene, i)) continue;
       if (std::abs(std::abs(u[i]) - 1) <= agreement) return std::nullopt;
       involved.push_back(i);
       length = std::hypot(length, u[i]);

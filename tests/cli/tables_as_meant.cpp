@@ -93,3 +93,16 @@ TEST_CASE("a step of a prox may be a fraction") {
   CHECK(Json::parse(half.out)["x"] == Json::array({2.5, 0.5}));
   CHECK(run({"prox", "norm1()", "--at", "[3, 1]", "--step", "0/2"}).code == 2);
 }
+
+TEST_CASE("a string between two bodies tells its force where it hangs vertically, too") {
+  const Folder folder;
+  const std::string file = folder.write(
+      "strings.toml",
+      "[system]\ncoordinates = [\"x1\", \"y1\", \"x2\", \"y2\"]\nkinetic = \"(x1'^2 + y1'^2 + x2'^2 + "
+      "y2'^2)/2\"\npotential = \"9.81*(y1 + y2)\"\n[system.constraints]\na = \"x1^2 + y1^2 <= 1\"\nb = \"(x1 "
+      "- x2)^2 + "
+      "(y1 - y2)^2 <= 1\"\n[state]\nposition = { x1 = 0, y1 = -1, x2 = 0, y2 = -2 }\n");
+  const std::string text = run({"solve", file}).out;
+  CHECK(text.find("4.905              9.81\n") != std::string::npos);
+  CHECK(text.find("9.81             19.62\n") != std::string::npos);
+}
