@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanics/number_text.hpp"
 
@@ -23,6 +24,8 @@ MotionOptions checked(MotionOptions options, const LagrangianSystem& system) {
                                  ": " + number_text(options.restitution[a]) +
                                  " is not from 0 to 1; an impact takes energy, or keeps it");
   if (!(options.tolerance > 0)) throw convex::InvalidInput("tolerance: not a positive number");
+  // Doubles have no more to give, and what is told to be beyond it would be their rounding.
+  options.tolerance = std::max(options.tolerance, 4 * std::numeric_limits<double>::epsilon());
   if (!(options.step > 0)) throw convex::InvalidInput("step: not a positive number");
   return options;
 }
