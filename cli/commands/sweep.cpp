@@ -86,7 +86,7 @@ class Sweep {
   Sweep(const SweepOptions& options, TomlValue document) : options_(options) {
     std::vector<std::string> keys;
     for (const std::string& text : options.over) {
-      ranges_.push_back(parse_sweep_range(text));
+      ranges_.push_back(parse_sweep_range(text, most_values, 2));
       keys.push_back(ranges_.back().key);
     }
     locates_ = ranges_.size() == 1 && ranges_.front().is_range;

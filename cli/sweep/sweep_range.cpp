@@ -38,7 +38,7 @@ Fraction number(const std::string& part, const std::string& text) {
 
 }  // namespace
 
-SweepRange parse_sweep_range(const std::string& text, double most) {
+SweepRange parse_sweep_range(const std::string& text, double most, double least) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     refuse_range(text, "no key and values; write a=0:0.1:1 or a=1,2,4");
@@ -59,7 +59,7 @@ SweepRange parse_sweep_range(const std::string& text, double most) {
   const Fraction steps = (last - first) / step;
   const double count = std::floor(convex::nearest_double(steps));
   if (convex::sign(steps) < 0) refuse_range(text, "the step leads away from the last value; change its sign");
-  if (count < 1)
+  if (count + 1 < least)
     refuse_range(text, "one value alone, for the step leads beyond the last; write first:step:last, or " +
                            range.key + "=" + bounds[0]);
   if (count >= most)

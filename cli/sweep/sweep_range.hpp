@@ -12,8 +12,10 @@ struct SweepRange {
   bool is_range = false;       ///< first:step:last
 };
 
+inline constexpr double most_values = 1e9;
+
 /// Numbers are exact while they are counted: 0:0.1:0.3 ends with 0.3. Throws InvalidInput, also
-/// for more values than `most`.
-SweepRange parse_sweep_range(const std::string& text, double most = 1e9);
+/// for more values than `most`, and of a range for fewer than `least`.
+SweepRange parse_sweep_range(const std::string& text, double most = most_values, double least = 1);
 
 }  // namespace cli::inline sweeps

@@ -122,11 +122,18 @@ Prox prox(const GraphForm& given, const Vector& z, const Metric& W, const Look& 
   check_sizes(given, W.dimension());
   const GraphForm f = with_attained_infimum(given);
   const SaddleProblem problem = saddle_problem(f, z, W, look);
-  const SaddleSolution solution = solve(problem);
-  const SaddlePoint& point = solution.point;
   Prox found;
   found.route = ProxRoute::iterative;
   found.method = "semismooth Newton, method of multipliers";
+  SaddleSolution solution;
+  try {
+    solution = solve(problem);
+  } catch (const InvalidInput&) {  // numbers have left the range of doubles: no point is found
+    found.status = Status::gave_up;
+    found.error_bound = infinity;
+    return found;
+  }
+  const SaddlePoint& point = solution.point;
   for (const GraphTerm& term : f.terms)
     found.by_conjugate = found.by_conjugate || term.f->prox_by_conjugate();
   found.x = point.xi.head(f.n);

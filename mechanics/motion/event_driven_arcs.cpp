@@ -75,7 +75,8 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
       obstacle_ = "an atan2 jumps there, and with it the argument of a branch";
       return false;
     }
-  const double moved = largest_term(sizes_, tau);
+  // Of a series that ends before a derivative without a bound the last terms may be of any size.
+  const double moved = is_cut_ ? (sizes_[1] + sizes_[2] * tau) * tau : largest_term(sizes_, tau);
   const double size = expansion_.norm(q2_);
   q2_ -= expected_q2_;
   const double defect = (expansion_.norm(q2_) + pull) * tau * tau;
