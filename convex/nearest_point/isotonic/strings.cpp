@@ -66,26 +66,6 @@ class StringFinder {
   std::vector<int> above_, below_, row_, other_end_;
 };
 
-/// The one string in which row after row leads from coordinate to coordinate, or rows -1.
-Strings string_in_order(const SparseRows& U, Index n) {
-  Strings found{{}, {}, {0}, {}};
-  const int floor = U.rows() == n ? 1 : 0;  // the first row, if it is one
-  if (U.rows() - floor != n - 1) return found;
-  if (const Link under = floor == 1 ? link(U, 0) : Link{-1, 0}; under.low != -1 || under.high != 0)
-    return found;
-  found.row.resize(at(n));
-  found.row[0] = floor - 1;
-  for (int i = 1; i < n; ++i) {
-    const Link tied = link(U, i - 1 + floor);
-    if (tied.high != i || tied.low != i - 1) return found;
-    found.row[at(i)] = i - 1 + floor;
-  }
-  found.coordinate.resize(at(n));
-  std::iota(found.coordinate.begin(), found.coordinate.end(), 0);
-  found.first.push_back(static_cast<int>(n));
-  return found;
-}
-
 }  // namespace
 
 Strings find_strings(const NearestPointProblem& problem, Index most_border) {
@@ -93,8 +73,6 @@ Strings find_strings(const NearestPointProblem& problem, Index most_border) {
   const Strings none{{}, {}, {0}, {}};
   if (!is_diagonal(problem.A) || !problem.U.is_sparse() || n == 0) return none;
   const SparseRows& U = problem.U.sparse();
-  if (problem.two_sided.empty())
-    if (Strings in_order = string_in_order(U, n); in_order.count() == 1) return in_order;
   Strings found;
   StringFinder strings(n);
   std::vector<std::pair<int, int>> floors;
