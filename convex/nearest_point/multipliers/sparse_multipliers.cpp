@@ -6,7 +6,7 @@
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/isotonic/peeling.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
-#include "convex/nearest_point/sparse/row_system.hpp"
+#include "convex/nearest_point/sparse/held_firmly.hpp"
 #include "convex/nearest_point/sparse/sparse_active_set.hpp"
 
 namespace convex::inline multiplier_sets {
@@ -15,25 +15,17 @@ bool sparse_rows_are_independent(const NearestPointProblem& problem, const std::
   const std::vector<Index> core = rows_left_by_peeling(problem.U, rows);
   if (core.empty()) return true;
   if (static_cast<Index>(core.size()) > problem.dimension()) return false;
-  constexpr double weight_of_rows = 1e9, part_left = 1e-5;
-  constexpr int projections = 4;
-  NearestPointProblem part{Metric::identity(problem.dimension()),
-                           Vector::Zero(problem.dimension()),
-                           problem.U.select(core),
-                           Vector::Zero(static_cast<Index>(core.size())),
-                           {}};
+  const NearestPointProblem part{Metric::identity(problem.dimension()),
+                                 Vector::Zero(problem.dimension()),
+                                 problem.U.select(core),
+                                 Vector::Zero(static_cast<Index>(core.size())),
+                                 {}};
   const BalancedProblem balanced = balanced_problem(part);
   RowSystem system(balanced);
-  if (!system.factor(Vector::Constant(part.rows(), weight_of_rows))) return false;
-  Vector kept(part.rows());
-  for (Index k = 0; k < kept.size(); ++k) {  // fixed numbers without a pattern
-    const double x = 0.6180339887498949 * static_cast<double>(k + 1);
-    kept[k] = x - std::floor(x) - 0.5;
-  }
-  const double drawn = kept.norm();
-  for (int k = 0; k < projections; ++k)
-    kept -= weight_of_rows * (balanced.U * system.solve(balanced.U.transpose() * kept));
-  return kept.norm() <= part_left * drawn;
+  constexpr double weight_of_rows = 2e9;
+  const Vector weight = Vector::Constant(part.rows(), weight_of_rows);
+  return system.factor(weight) &&
+         is_held_firmly(slowest_residual(balanced, system, indices_below(part.rows()), weight));
 }
 
 bool can_open(const NearestPointProblem& problem, const std::vector<Index>& held,

@@ -6,8 +6,8 @@
 
 namespace convex::inline multiplier_sets {
 
-/// Whether the rows given are independent: by peeling where that decides, else by what a vector drawn by lot
-/// keeps in the null space of the columns u_a, up to eigenvalues of 1e-8 of rows of length 1.
+/// Whether the rows given are independent: by peeling where that decides, else by whether they hold firmly
+/// (`is_held_firmly`), up to eigenvalues of 1e-8 of rows of length 1.
 bool sparse_rows_are_independent(const NearestPointProblem&, const std::vector<Index>& rows);
 
 /// Whether some direction d with u_a·d = 0 on the rows `held` opens all the others, u_b·d > 0. By the
