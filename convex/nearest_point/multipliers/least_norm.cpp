@@ -4,37 +4,10 @@
 #include <cmath>
 
 #include "convex/linear_algebra/cholesky.hpp"
-#include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace convex::inline multiplier_sets {
 namespace {
-
-/// lambda of least norm as the nearest point to 0 in {lambda : lambda_k + Σ T(k, p) lambda_p the same for
-/// each k, lambda >= 0 on one-sided rows}, every entry rounded once. start: lambda of the rows `names`, those
-/// of T first.
-bool least_norm_in_fractions(const Dependence& rows, const std::vector<Index>& names,
-                             const std::vector<bool>& is_free, const Vector& start, Vector& lambda) {
-  const Index d = rows.T.cols(), k = rows.T.rows();
-  RowMatrix U = RowMatrix::Zero(k, k + d);
-  U.leftCols(k).setIdentity();
-  U.rightCols(d) = rows.T;
-  Vector s = U * start;
-  for (Index j = 0; j < k + d; ++j) {
-    if (is_free[at(names[static_cast<std::size_t>(j)])]) continue;
-    U.conservativeResize(U.rows() + 1, k + d);
-    U.row(U.rows() - 1) = Vector::Unit(k + d, j).transpose();
-    s.conservativeResize(U.rows());
-    s[U.rows() - 1] = 0;
-  }
-  const NearestPointProblem problem{Metric::identity(k + d), Vector::Zero(k + d),
-                                    ConstraintRows(std::move(U)), std::move(s), indices_below(k)};
-  const Solution solution = exact_method(problem, {});
-  if (solution.status != Status::solved && solution.status != Status::inaccurate) return false;
-  for (Index j = 0; j < k + d; ++j) lambda[names[at(j)]] = solution.q[j];
-  return true;
-}
 
 /// The same dependences in a basis in which no coefficient is large, and the multipliers with which its rows
 /// alone pull the same: where rows are told in units far apart, those of another one keep no digit of the
@@ -161,15 +134,7 @@ bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   Matrix N(k + d, d);
   N.topRows(k) = -rows.T;
   N.bottomRows(d).setIdentity();
-  // The condition of N is at most about the size of T. Beyond, as for rows told in units far apart, each
-  // multiplier needs digits of its own; where fractions cost too much, an orthonormal basis of the columns
-  // serves.
-  constexpr double steep = 1e5;
-  constexpr Index few = 24;
-  if (rows.T.norm() > steep) {
-    if (k + d <= few && least_norm_in_fractions(rows, names, is_free, start, lambda)) return true;
-    N = linear_algebra::Householder(N).Q(d);
-  }
+  // With no entry of T large the condition of NᵀN is no obstacle.
   std::vector<Index> signed_rows;
   for (Index j = 0; j < k + d; ++j)
     if (!is_free[at(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);
