@@ -8,6 +8,8 @@
 
 #include "convex/nearest_point/isotonic/chain_answer.hpp"
 #include "convex/nearest_point/isotonic/chain_kernels.hpp"
+#include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/optimality/gathered_residuals.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 
 namespace convex::inline isotonic {
@@ -75,8 +77,15 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
   // On level ground the coordinates of a pool are equal, and only the floor has anything left to round.
   const Index floor = order.row(0);
   const bool by_blocks = are_plain_links(order), few = chain.is_level() || by_blocks;
-  found.residuals = sparse_residuals(problem, found, found.residuals.stationarity,
-                                     few ? std::max(floor, Index{0}) : 0, few ? floor + 1 : m);
+  if (few) {
+    GatheredResiduals all(found.residuals.stationarity, found.acceleration_norm, scale, *largest);
+    if (floor >= 0)
+      all.add(chain.s[floor], order.factor(0) / std::sqrt(chain.mass[order.coordinate(0)]),
+              found.lambda[floor], slack_at(problem, floor, found.q), false);
+    found.residuals = all.all();
+  } else {
+    found.residuals = residuals(problem, found, {.stationarity = found.residuals.stationarity});
+  }
   if (by_blocks && !chain.is_level()) add_links(problem, floor + 1, scale, *largest, found);
   found.error_bound = found.rounding + rounding_of_pools(chain, scale);
   found.status = found.is_within(accuracy) && found.undecided.empty() ? Status::solved : Status::inaccurate;

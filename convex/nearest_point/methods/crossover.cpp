@@ -44,7 +44,7 @@ class Crossover {
     if (std::optional<Solution> proved = infeasible(held.farkas); proved && candidate_.may_polish)
       return *proved;
     if (held.q.size() == 0 || held.undecided == open_question::conditioning) {
-      raw.error_bound = bound_of_gap(q, lambda);
+      raw.error_bound = bound_by_gap(problem_, raw);
       return with_status(raw);
     }
     if (problem_.radii)
@@ -133,22 +133,6 @@ class Crossover {
     solution.residuals =
         residuals(problem_, solution, {.length = is_dense_size(problem_) ? Vector() : row_scale_});
     return solution;
-  }
-
-  /// The bound from the candidate alone; none where a row is violated.
-  double bound_of_gap(const Vector& q, const Vector& lambda) const {
-    const DoubleDoubleVector point(q);
-    const double off = problem_.A.dual_norm(stationarity_residual(problem_, point, lambda));
-    const Vector plain = problem_.U.times(q) - problem_.s;
-    double gap = 0;
-    for (Index a = 0; a < problem_.rows(); ++a) {
-      const bool is_two_sided = two_sided_[at(a)];
-      if (plain[a] > 0 && lambda[a] == 0 && !is_two_sided) continue;
-      const double rest = slack(problem_, a, point).value();
-      if (rest < 0 || (is_two_sided && rest != 0)) return infinity;
-      gap += lambda[a] * rest;
-    }
-    return off + std::sqrt(gap);
   }
 
   Solution with_status(Solution solution) const {

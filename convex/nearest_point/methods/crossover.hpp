@@ -23,12 +23,7 @@ struct Candidate {
 /// Residuals are those of `residuals`. The bound on ||q - q*||_A, q* the solution, is the second one of
 /// these, or the first where no rows can be held.
 ///
-/// From the candidate alone, where q satisfies the rows: with r = Aq - z - Uᵀlambda, lambda >= 0, w = Uq - s,
-/// e = q - q*,
-///   ||e||² = e·r + (lambda - lambda*)·(w - w*) <= ||e|| ||r||_(A⁻¹) + lambda·w,
-/// since lambda*·w* = 0 <= lambda·w* and lambda*·w >= 0. Hence ||e|| <= ||r|| + root(lambda·w). A root: it
-/// proves half of the digits. Where q violates a row, however little, nothing is proved: there may be no
-/// solution.
+/// From the candidate alone: `bound_by_gap`, a root.
 ///
 /// From the working set: the point p of the active rows (`active_set_near`), refined in twice the working
 /// precision, meets all conditions exactly but for what refinement left, multipliers negative by rounding,

@@ -87,22 +87,18 @@ double bound_by_gap(const NearestPointProblem& problem, const Solution& answer) 
     const double rest = slack(problem, a, q).value();
     if (is_equation ? rest != 0 : !(rest >= 0)) return infinity;
   }
-  const double scale = std::max(answer.acceleration_norm, answer.force_norm);
-  return (std::sqrt(2.0) * answer.residuals.duality_gap + unit_roundoff) * scale;
+  // ||e||² <= ||e|| r + g, g = lambda·(Uq - s): the gap squared is g + ½r².
+  const double gap = answer.residuals.duality_gap, r = answer.residuals.stationarity,
+               most = 0.5 * (r + std::sqrt(std::max(0.0, 4 * gap * gap - r * r)));
+  return (most + unit_roundoff) * std::max(answer.acceleration_norm, answer.force_norm);
 }
 
 namespace {
 
-/// A row as it is stored.
-struct StoredRow {
-  Index count;
-  const int* place;
-  const double* value;
-};
-
-StoredRow stored_row(const SparseRows& U, Index a) {
-  const Index begin = U.outerIndexPtr()[a];
-  return {U.outerIndexPtr()[a + 1] - begin, U.innerIndexPtr() + begin, U.valuePtr() + begin};
+template <class Visit>
+void for_each_stored(const SparseRows& U, Index a, Visit visit) {
+  const Index end = U.outerIndexPtr()[a + 1];
+  for (Index k = U.outerIndexPtr()[a]; k < end; ++k) visit(U.innerIndexPtr()[k], U.valuePtr()[k]);
 }
 
 /// The product as a pair; entries of incidence are 1 and -1, and then it is exact.
@@ -111,53 +107,7 @@ DoubleDouble exact_product(double value, double x) {
   return two_product(value, x);
 }
 
-/// u_a·q - s_a in twice the working precision.
-double precise_slack(const StoredRow& row, const Vector& q, double s) {
-  RunningSum sum;
-  for (Index k = 0; k < row.count; ++k) sum.add(exact_product(row.value[k], q[row.place[k]]));
-  sum.add(-s);
-  return sum.value();
-}
-
-double terms(const StoredRow& row, const Vector& q) {
-  double sum = 0;
-  for (Index k = 0; k < row.count; ++k) sum += std::abs(row.value[k] * q[row.place[k]]);
-  return sum;
-}
-
 }  // namespace
-
-Residuals sparse_residuals(const NearestPointProblem& problem, const Solution& answer) {
-  return sparse_residuals(
-      problem, answer,
-      problem.A.dual_norm(stationarity_residual(problem, DoubleDoubleVector(answer.q), answer.lambda)), 0,
-      problem.rows());
-}
-
-Residuals sparse_residuals(const NearestPointProblem& problem, const Solution& answer, double stationarity,
-                           Index first, Index end) {
-  const SparseRows& U = problem.U.sparse();
-  const Vector &d = problem.A.diagonal(), &q = answer.q, &lambda = answer.lambda, &slack = answer.slack;
-  GatheredResiduals found(stationarity, answer.acceleration_norm,
-                          std::max(answer.acceleration_norm, answer.force_norm),
-                          end > first ? lambda.cwiseAbs().maxCoeff() : 0);
-  auto next_two_sided = std::lower_bound(problem.two_sided.begin(), problem.two_sided.end(), first);
-  for (Index a = first; a < end; ++a) {
-    const bool two_sided = next_two_sided != problem.two_sided.end() && *next_two_sided == a;
-    next_two_sided += two_sided;
-    const bool loaded = std::abs(lambda[a]) > 0;
-    const StoredRow row = stored_row(U, a);
-    const double size = std::abs(problem.s[a]);
-    double rest = slack[a];
-    if (rest > 0 && !two_sided && !loaded && rest > near_zero * (size + terms(row, q))) continue;
-    rest = precise_slack(row, q, problem.s[a]);
-    if ((!loaded && rest >= 0 && !two_sided) || !(std::abs(rest) > 0)) continue;
-    double square = 0;
-    for (Index k = 0; k < row.count; ++k) square += row.value[k] * row.value[k] / d[row.place[k]];
-    found.add(problem.s[a], std::sqrt(square), lambda[a], rest, two_sided);
-  }
-  return found.all();
-}
 
 Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
   Solution found;
@@ -170,39 +120,65 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
 }
 
 Residuals residuals(const NearestPointProblem& problem, const Solution& answer, KnownParts known) {
-  if (is_diagonal(problem.A) && problem.U.is_sparse()) return sparse_residuals(problem, answer);
-  const Vector &q = answer.q, &lambda = answer.lambda;
-  Vector& length = known.length;
-  if (length.size() == 0) length = Vector::Zero(problem.rows());
-  Vector rest = answer.slack;
+  const Vector &q = answer.q, &lambda = answer.lambda, &s = problem.s, &d = problem.A.diagonal();
+  const ConstraintRows& U = problem.U;
   const Index m = problem.rows();
-  const std::vector<bool> two_sided = marked(m, problem.two_sided);
-
-  const DoubleDoubleVector point(q);
-  // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
-  const Vector magnitude = q.cwiseAbs();
-  std::vector<Index> matter, unknown;
-  for (Index a = 0; a < m; ++a) {
-    const bool is_two_sided = two_sided[at(a)];
-    if (rest[a] > 0 && !is_two_sided && lambda[a] == 0) {
-      const double s = std::abs(problem.s[a]);
-      if (known.magnitude.size() > 0 && rest[a] > near_zero * (s + known.magnitude[a])) continue;
-      if (rest[a] > near_zero * (s + problem.U.absolute_dot(a, magnitude))) continue;
-    }
-    rest[a] = slack(problem, a, point).value();
-    if (lambda[a] == 0 && rest[a] >= 0 && !is_two_sided) continue;
-    matter.push_back(a);
-    if (length[a] <= 0) unknown.push_back(a);
-  }
-  if (!unknown.empty()) length += dual_lengths(problem, unknown);
-
+  const bool is_sparse = U.is_sparse(), are_lengths_at_hand = is_sparse && is_diagonal(problem.A);
+  const DoubleDoubleVector point(is_sparse && known.stationarity ? Vector() : q);
   const double stationarity = known.stationarity
                                   ? *known.stationarity
                                   : problem.A.dual_norm(stationarity_residual(problem, point, lambda));
+  const Vector magnitude = is_sparse ? Vector() : Vector(q.cwiseAbs());
   GatheredResiduals found(stationarity, answer.acceleration_norm,
                           std::max(answer.acceleration_norm, answer.force_norm),
                           m > 0 ? lambda.cwiseAbs().maxCoeff() : 0);
-  for (Index a : matter) found.add(problem.s[a], length[a], lambda[a], rest[a], two_sided[at(a)]);
+  const auto terms = [&](Index a) {
+    if (!is_sparse) return U.absolute_dot(a, magnitude);
+    double sum = 0;
+    for_each_stored(U.sparse(), a, [&](Index i, double u) { sum += std::abs(u * q[i]); });
+    return sum;
+  };
+  const auto precise_slack = [&](Index a) {
+    if (!is_sparse) return slack(problem, a, point).value();
+    RunningSum sum;
+    for_each_stored(U.sparse(), a, [&](Index i, double u) { sum.add(exact_product(u, q[i])); });
+    sum.add(-s[a]);
+    return sum.value();
+  };
+  const auto length_at_hand = [&](Index a) {
+    double square = 0;
+    for_each_stored(U.sparse(), a, [&](Index i, double u) { square += u * u / d[i]; });
+    return std::sqrt(square);
+  };
+  const std::vector<bool> two_sided = marked(m, problem.two_sided);
+  std::vector<Index> unknown;
+  std::vector<double> slacks;  // of these
+  for (Index a = 0; a < m; ++a) {
+    const bool is_two_sided = two_sided[at(a)], is_loaded = lambda[a] != 0;
+    double rest = answer.slack[a];
+    // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
+    if (rest > 0 && !is_two_sided && !is_loaded) {
+      const double size = std::abs(s[a]);
+      if (known.magnitude.size() > 0 && rest > near_zero * (size + known.magnitude[a])) continue;
+      if (rest > near_zero * (size + terms(a))) continue;
+    }
+    rest = precise_slack(a);
+    if ((!is_loaded && rest >= 0 && !is_two_sided) || rest == 0) continue;
+    double length = known.length.size() > 0 ? known.length[a] : 0;
+    if (are_lengths_at_hand) length = length_at_hand(a);
+    if (length > 0) {
+      found.add(s[a], length, lambda[a], rest, is_two_sided);
+    } else {
+      unknown.push_back(a);
+      slacks.push_back(rest);
+    }
+  }
+  if (unknown.empty()) return found.all();
+  const Vector length = dual_lengths(problem, unknown);
+  for (std::size_t k = 0; k < unknown.size(); ++k) {
+    const Index a = unknown[k];
+    found.add(s[a], length[a], lambda[a], slacks[k], two_sided[at(a)]);
+  }
   return found.all();
 }
 

@@ -21,21 +21,16 @@ struct KnownParts {
 /// again.
 Residuals residuals(const NearestPointProblem&, const Solution&, KnownParts known = {});
 
-/// `residuals` for a diagonal A and sparse rows: the same numbers from one pass over the rows, without lists.
-/// Lengths are computed, whether known or not.
-Residuals sparse_residuals(const NearestPointProblem&, const Solution&);
-
-/// The same where ||Aq - z - Uᵀlambda||_(A⁻¹) is known; only the rows first … end - 1 may leave anything.
-Residuals sparse_residuals(const NearestPointProblem&, const Solution&, double unbalanced, Index first,
-                           Index end);
-
 /// Whether a row is violated by more than the error bound allows: then one of the two is wrong, and nothing
 /// is known of the error.
 bool violates_beyond_bound(const Solution&);
 
-/// A bound of ||q - q*||_A from the residuals of an answer whose doubles satisfy every row: with lambda >= 0
-/// on one-sided rows, ½||q - q*||_A² <= lambda·(Uq - s) + ½||Aq - z - Uᵀlambda||²_(A⁻¹), the duality gap,
-/// whatever the rows have to do with each other; and the rounding of these terms. Infinite for other answers.
+/// A bound of ||q - q*||_A from the residuals of an answer whose doubles satisfy every row, and the rounding
+/// of its terms: with r = Aq - z - Uᵀlambda, lambda >= 0 on one-sided rows, w = Uq - s and e = q - q*,
+///   ||e||² = e·r + (lambda - lambda*)·(w - w*) <= ||e|| ||r||_(A⁻¹) + lambda·w,
+/// since lambda*·w* = 0 <= lambda·w* and lambda*·w >= 0, whatever the rows have to do with each other. It
+/// proves half of the digits. Infinite for other answers: where q violates a row, however little, there may
+/// be no solution.
 double bound_by_gap(const NearestPointProblem&, const Solution&);
 
 /// ||u_a||_(A⁻¹) for the rows given, 0 for the others: m.
