@@ -8,6 +8,8 @@
 #include "convex/exact/integer_system.hpp"
 #include "convex/exact/modular.hpp"
 #include "convex/infinity.hpp"
+#include "convex/invariant.hpp"
+#include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
@@ -32,6 +34,22 @@ std::vector<Index> spanning(const ExactProblem& problem, std::vector<Index> basi
   return chosen;
 }
 
+/// The coefficients of rows in the basis, on which they depend: u_p = Σ T_kp u_k. One vector a row.
+std::vector<ExactVector> expansions(const ExactProblem& problem, const RowBasis& basis,
+                                    const std::vector<Index>& basic, const std::vector<Index>& rows) {
+  std::vector<ExactVector> all;
+  for (Index p : rows) {
+    const auto c = basis.coefficients(problem.U[at(p)]);
+    invariant(c.has_value(), "a row depends on rows that span it modulo a large prime");
+    std::vector<Fraction> of_row;
+    for (std::size_t k = 0; k < basic.size(); ++k)
+      of_row.push_back(lowest_terms(
+          {c->numerators[k] * problem.row_unit[at(basic[k])], c->denominator * problem.row_unit[at(p)]}));
+    all.push_back(exact_vector(of_row));
+  }
+  return all;
+}
+
 /// e_p - Σ T_kp e_k.
 std::vector<std::pair<Index, Fraction>> null_vector(const std::vector<Index>& basic, const ExactVector& T,
                                                     Index p) {
@@ -47,14 +65,6 @@ std::vector<std::vector<Fraction>> columns(const std::vector<ExactVector>& T) {
   for (std::size_t j = 0; j < T.size(); ++j)
     for (std::size_t k = 0; k < T[j].numerators.size(); ++k) found[j].push_back(entry(T[j], k));
   return found;
-}
-
-/// Coordinates in which the rows, which span the others, are as many as there are columns.
-std::vector<std::size_t> independent_columns(const ExactProblem& problem, const std::vector<Index>& rows) {
-  IntegerRows columns(problem.z.size());
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    for (const Index a : rows) columns[i].push_back(problem.U[at(a)][i]);
-  return independent_rows(columns, rows.size());
 }
 
 /// The shortest lambda with Σ lambda_a u_a = r, the reaction, and lambda_a >= 0 on one-sided rows. By the
@@ -188,14 +198,15 @@ class LeastNorm {
 };
 
 /// The shortest multipliers of the same reaction as `lambda`, which is changed into them: >= 0 where not
-/// `is_free`, 0 but on the rows `basic`, which are independent, and `dependent`, which depend on them.
+/// `is_free`, 0 but on the rows `basic`, which are independent, also in `coordinates` alone, and `dependent`,
+/// which depend on them.
 /// lambda, is_free: m. False, and nothing is changed, where that takes more word operations.
-bool exact_least_norm(const ExactProblem& problem, const std::vector<Index>& basic,
-                      const std::vector<Index>& dependent, const std::vector<bool>& is_free,
-                      double most_words, ExactVector& lambda) {
+bool exact_least_norm(const ExactProblem& problem, const std::vector<std::size_t>& coordinates,
+                      const std::vector<Index>& basic, const std::vector<Index>& dependent,
+                      const std::vector<bool>& is_free, double most_words, ExactVector& lambda) {
   std::vector<Index> names = basic;
   names.insert(names.end(), dependent.begin(), dependent.end());
-  const LeastNorm shortest(problem, names, independent_columns(problem, basic), is_free, lambda);
+  const LeastNorm shortest(problem, names, coordinates, is_free, lambda);
   std::optional<std::vector<Fraction>> best = shortest.by_point(most_words);
   if (!best) best = shortest.by_multipliers(most_words);
   if (!best) return false;
@@ -238,7 +249,11 @@ std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, c
     const double of_ranges = want_ranges ? words_of_ranges(found.tight.size(), dependent.size()) : 0,
                  left = most_words - of_ranges - words_of_expansions(problem, basic.size(), dependent.size());
     if (!(left > 0)) return std::nullopt;
-    const std::vector<ExactVector> T = exact_expansions(problem, basic, dependent);
+    IntegerRows rows;
+    for (Index a : basic) rows.push_back(problem.U[at(a)]);
+    const auto basis = RowBasis::of(rows, problem.z.size());
+    invariant(basis.has_value(), "rows independent modulo a large prime are so modulo others");
+    const std::vector<ExactVector> T = expansions(problem, *basis, basic, dependent);
     for (std::size_t p = 0; p < dependent.size(); ++p)
       found.null_space.push_back(null_vector(basic, T[p], dependent[p]));
     std::vector<Fraction> value;
@@ -253,7 +268,8 @@ std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, c
       if (!found.unique && !want_ranges) break;
     }
     if (!found.unique) {
-      if (!exact_least_norm(problem, basic, dependent, is_free, left, found.least_norm)) return std::nullopt;
+      if (!exact_least_norm(problem, basis->coordinates(), basic, dependent, is_free, left, found.least_norm))
+        return std::nullopt;
       if (want_ranges)
         for (Index a : basic) ranges[at(a)] = all.range(a);
     }

@@ -18,14 +18,10 @@ namespace {
 /// Dense matrices of X and of the active rows are made up to these sizes.
 constexpr Index largest_dimension = 1500, most_active_entries = largest_dimension * largest_dimension;
 
-bool multipliers_are_positive(const NearestPointProblem& problem, const std::vector<Index>& rows,
-                              const HeldPoint& point) {
-  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (two_sided[at(rows[r])]) continue;
-    const auto k = static_cast<Index>(r);
-    if (!(below(point.lambda[k] + point.dlambda[k]) > above(point.multiplier_radius[k]))) return false;
-  }
+bool multipliers_are_positive(const HeldRows& held) {
+  for (std::size_t k = 0; k < held.rows.size(); ++k)
+    if (!held.problem.is_two_sided(held.rows[k]) && !(held.least_multiplier(static_cast<Index>(k)) > 0))
+      return false;
   return true;
 }
 
@@ -38,48 +34,44 @@ struct Parts {
   bool against = true;
 };
 
-Parts parts_of(const NearestPointProblem& problem, const Preconditioned& P, const Active& active,
-               const std::vector<Index>& held, Index a) {
+Parts parts_of(const HeldRows& held, Index a) {
   constexpr double noticeable = 1e-9;
-  const Vector c = coefficients_on_held(P, active, problem.U.row(a));
+  const Vector c = coefficients_on_held(held, held.problem.U.row(a));
   Parts parts;
   for (Index r = 0; r < c.size(); ++r) {
     if (!(std::abs(c[r]) > noticeable * c.cwiseAbs().maxCoeff())) continue;
-    parts.others.push_back(held[at(r)]);
-    parts.against = parts.against && (c[r] < 0 || problem.is_two_sided(parts.others.back()));
+    parts.others.push_back(held.rows[at(r)]);
+    parts.against = parts.against && (c[r] < 0 || held.problem.is_two_sided(parts.others.back()));
   }
   return parts;
 }
 
 /// Whether the open rows are exactly implied by rows of the working set at which doubles find them to be
 /// combinations.
-bool follow(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-            const Active& active, const std::vector<Index>& held, const std::vector<OpenRow>& open) {
-  if (radii.any()) return open.empty();
+bool follow(const HeldRows& held, const std::vector<OpenRow>& open) {
+  if (held.radii.any()) return open.empty();
   std::vector<Index> together;
   for (const OpenRow& o : open) {
-    const Parts parts = parts_of(problem, P, active, held, o.row);
+    const Parts parts = parts_of(held, o.row);
     if (parts.others.size() > most_others)
       together.push_back(o.row);
-    else if (!follow_exactly(problem, {o.row}, parts.others, most_word_operations))
+    else if (!follow_exactly(held.problem, {o.row}, parts.others, most_word_operations))
       return false;
   }
-  return together.empty() || follow_exactly(problem, together, held, most_word_operations);
+  return together.empty() || follow_exactly(held.problem, together, held.rows, most_word_operations);
 }
 
 /// At least ||q* - q_S||_A: 0 where every other slack is positive, or exactly implied not to be negative.
-std::optional<double> shift_of_open_rows(const NearestPointProblem& problem, const RadiiOf& radii,
-                                         const Preconditioned& P, const Active& active,
-                                         const std::vector<Index>& held, const HeldPoint& point) {
-  const HeldSlacks slacks(problem, radii, P, held, point);
+std::optional<double> shift_of_open_rows(const HeldRows& held) {
+  const HeldSlacks slacks(held);
   std::vector<OpenRow> open = slacks.open(0);
-  const auto is_two_sided = [&](const OpenRow& row) { return problem.is_two_sided(row.row); };
-  if (follow(problem, radii, P, active, held, open)) return 0;
+  const auto is_two_sided = [&](const OpenRow& row) { return held.problem.is_two_sided(row.row); };
+  if (follow(held, open)) return 0;
   // Rows that the motion may reach are counted as open, until no other is reached.
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round) {
     if (std::any_of(open.begin(), open.end(), is_two_sided)) return std::nullopt;
-    const auto bound = bound_with_open_rows(problem, radii, P, active, held, point, open);
+    const auto bound = bound_with_open_rows(held, open);
     if (!bound) return std::nullopt;
     std::vector<OpenRow> reached = slacks.open(bound->reach);
     if (reached.size() == open.size()) return bound->shift;
@@ -107,14 +99,14 @@ std::vector<Index> loaded_rows(const Solution& solution) {
 }
 
 /// Rows to hold, with multipliers.
-struct Held {
+struct Guess {
   std::vector<Index> rows;
   Vector lambda;
 };
 
 /// Independent rows, among those without slack, that make R = A q - z (Lawson and Hanson's method ends at
 /// such rows), and as many of the two-sided rows as are independent.
-std::optional<Held> independent(const NearestPointProblem& problem, const Solution& solution) {
+std::optional<Guess> independent(const NearestPointProblem& problem, const Solution& solution) {
   std::vector<Index> rows;
   if (!problem.two_sided.empty()) {
     const linear_algebra::PivotedQr factor(whitened_rows(problem, problem.two_sided));
@@ -133,28 +125,26 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
   const ConeProjection push = cone_projection(whitened_rows(problem, rows), problem.A.whiten(residual),
                                               indices_below(static_cast<Index>(two_sided)));
   if (!push.finished) return std::nullopt;
-  Held held{{}, Vector::Zero(problem.rows())};
+  Guess found{{}, Vector::Zero(problem.rows())};
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const double lambda = push.lambda[static_cast<Index>(r)];
     if (lambda == 0 && r >= two_sided) continue;
-    held.rows.push_back(rows[r]);
-    held.lambda[rows[r]] = lambda;
+    found.rows.push_back(rows[r]);
+    found.lambda[rows[r]] = lambda;
   }
-  return held;
+  return found;
 }
 
-/// Drops one-sided rows whose multiplier at the refined point is 0 but for its radius, if there are such.
-bool drop_idle_rows(const NearestPointProblem& problem, const HeldPoint& point, Held& held) {
+/// The rows but for one-sided ones whose multiplier at the refined point is 0 but for its radius.
+std::vector<Index> without_idle_rows(const HeldRows& held) {
   std::vector<Index> kept;
   for (std::size_t r = 0; r < held.rows.size(); ++r) {
     const auto k = static_cast<Index>(r);
-    const bool two_sided = problem.is_two_sided(held.rows[r]);
-    if (two_sided || !(std::abs(point.lambda[k] + point.dlambda[k]) <= above(point.multiplier_radius[k])))
+    const double multiplier = std::abs(held.point.lambda[k] + held.point.dlambda[k]);
+    if (held.problem.is_two_sided(held.rows[r]) || !(multiplier <= above(held.point.multiplier_radius[k])))
       kept.push_back(held.rows[r]);
   }
-  const bool dropped = kept.size() < held.rows.size();
-  held.rows = std::move(kept);
-  return dropped;
+  return kept;
 }
 
 /// Whether dense matrices of X and of so many rows may be made.
@@ -171,14 +161,12 @@ bool is_ordinary_problem(const NearestPointProblem& problem, const Solution& sol
 }
 
 /// Open rows that add up to 0 with rows of the working set, and their bounds: equalities in disguise.
-std::vector<Index> disguised(const NearestPointProblem& problem, const RadiiOf& radii,
-                             const Preconditioned& P, const Active& active, const std::vector<Index>& held,
-                             const HeldPoint& point) {
+std::vector<Index> disguised(const HeldRows& held) {
   std::vector<Index> found;
-  if (radii.any()) return found;
-  for (const OpenRow& o : HeldSlacks(problem, radii, P, held, point).open(0)) {
-    const Parts parts = parts_of(problem, P, active, held, o.row);
-    if (!parts.against || parts.others.size() > most_others || !are_equalities(problem, o.row, parts.others))
+  for (const OpenRow& o : HeldSlacks(held).open(0)) {
+    const Parts parts = parts_of(held, o.row);
+    if (!parts.against || parts.others.size() > most_others ||
+        !are_equalities(held.problem, o.row, parts.others))
       continue;
     found.push_back(o.row);
     found.insert(found.end(), parts.others.begin(), parts.others.end());
@@ -197,52 +185,47 @@ NearestPointProblem with_equalities(NearestPointProblem problem, const std::vect
 
 /// Whether the doubles q satisfy all rows without rounding, those held with equality, and no multiplier is
 /// negative: then ||q - q*||_A <= ||Aq - z - Uᵀlambda||_(A⁻¹), however the rows depend on each other.
-bool is_kept_exactly(const NearestPointProblem& problem, const std::vector<Index>& held,
-                     const HeldPoint& point) {
-  const std::vector<bool> is_held = marked(problem.rows(), held),
-                          two_sided = marked(problem.rows(), problem.two_sided);
-  for (std::size_t r = 0; r < held.size(); ++r) {
+bool is_kept_exactly(const HeldRows& held) {
+  const NearestPointProblem& problem = held.problem;
+  const HeldPoint& point = held.point;
+  for (std::size_t r = 0; r < held.rows.size(); ++r) {
     const auto k = static_cast<Index>(r);
-    if (!two_sided[at(held[r])] && !(below(point.lambda[k] + point.dlambda[k]) >= 0)) return false;
+    if (!problem.is_two_sided(held.rows[r]) && !(below(point.lambda[k] + point.dlambda[k]) >= 0))
+      return false;
   }
+  const std::vector<bool> is_held = marked(problem.rows(), held.rows);
   std::vector<Index> others;
   for (Index a = 0; a < problem.rows(); ++a)
     if (!is_held[at(a)]) others.push_back(a);
-  return slacks_if_kept(problem, point.q, held, others).has_value();
+  return slacks_if_kept(problem, point.q, held.rows, others).has_value();
 }
 
 /// The bound from the working set, when they stand alone and push.
 std::optional<double> bound_from(const NearestPointProblem& problem, const RadiiOf& radii,
-                                 const Preconditioned& P, const Solution& solution, Held held) {
-  const auto stand_alone = [](const std::optional<Active>& rows) { return rows && rows->delta < 0.5; };
-  auto active = active_rows(problem, radii, P, held.rows);
-  if (!stand_alone(active)) return std::nullopt;
-  HeldPoint point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
+                                 const Preconditioned& P, const Solution& solution, const Guess& guess) {
+  const auto held = hold(problem, radii, P, guess.rows, solution.q, guess.lambda);
+  if (!held) return std::nullopt;
   // Rows without a multiplier, for all that doubles tell, need not be held.
-  if (drop_idle_rows(problem, point, held)) {
-    active = active_rows(problem, radii, P, held.rows);
-    if (!stand_alone(active)) return std::nullopt;
-    point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
-  }
-  if (!std::isfinite(point.radius)) return std::nullopt;
-  if (!radii.any() && is_kept_exactly(problem, held.rows, point))
-    return unbalanced_above(problem, radii, P, held.rows, point);
-  if (!multipliers_are_positive(problem, held.rows, point)) return std::nullopt;
-  const auto shift = shift_of_open_rows(problem, radii, P, *active, held.rows, point);
+  const std::vector<Index> pushing = without_idle_rows(*held);
+  if (pushing.size() < held->rows.size())
+    return bound_from(problem, radii, P, solution, {pushing, guess.lambda});
+  if (!radii.any() && is_kept_exactly(*held)) return unbalanced_above(*held);
+  if (!multipliers_are_positive(*held)) return std::nullopt;
+  const auto shift = shift_of_open_rows(*held);
   if (!shift) return std::nullopt;
-  return above(length_above(P, radii, point.dq) + point.radius + *shift);
+  return above(length_above(P, radii, held->point.dq) + held->point.radius + *shift);
 }
 
 /// Open rows that are independent of each other and of the working set.
-std::vector<Index> more_rows(const NearestPointProblem& problem, const Preconditioned& P,
-                             const Active& active, const std::vector<OpenRow>& open) {
+std::vector<Index> more_rows(const HeldRows& held) {
+  const std::vector<OpenRow> open = HeldSlacks(held).open(0);
   if (open.empty()) return {};
-  Matrix V(P.dimension(), static_cast<Index>(open.size()));
+  Matrix V(held.P.dimension(), static_cast<Index>(open.size()));
   for (std::size_t k = 0; k < open.size(); ++k) {
-    Vector v = P.times_X(problem.U.row(open[k].row));
+    Vector v = held.P.times_X(held.problem.U.row(open[k].row));
     v.normalize();
-    if (active.U.rows() > 0)
-      for (int pass = 0; pass < 2; ++pass) v -= active.Z * (active.Z.transpose() * v);
+    if (held.U.rows() > 0)
+      for (int pass = 0; pass < 2; ++pass) v -= held.Z * (held.Z.transpose() * v);
     constexpr double dependent = 1e-8;
     V.col(static_cast<Index>(k)) = v.norm() > dependent ? v : Vector::Zero(v.size());
   }
@@ -256,37 +239,32 @@ std::vector<Index> more_rows(const NearestPointProblem& problem, const Precondit
 /// The bound where rows of the working set and open are equalities in disguise: these are held, with
 /// multipliers of any sign.
 std::optional<double> bound_with_disguised(const NearestPointProblem& problem, const RadiiOf& radii,
-                                           const Preconditioned& P, const Solution& solution, Held held) {
+                                           const Preconditioned& P, const Solution& solution, Guess guess) {
   if (radii.any()) return std::nullopt;
-  auto active = active_rows(problem, radii, P, held.rows);
-  if (!active || !(active->delta < 0.5)) return std::nullopt;
-  HeldPoint point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
-  if (!std::isfinite(point.radius)) return std::nullopt;
-  const std::vector<Index> more =
-      more_rows(problem, P, *active, HeldSlacks(problem, radii, P, held.rows, point).open(0));
-  if (static_cast<Index>(held.rows.size() + more.size()) > problem.dimension()) return std::nullopt;
-  held.rows.insert(held.rows.end(), more.begin(), more.end());
-  active = active_rows(problem, radii, P, held.rows);
-  if (!active || !(active->delta < 0.5)) return std::nullopt;
-  point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
-  const std::vector<Index> rows = disguised(problem, radii, P, *active, held.rows, point);
+  const auto held = hold(problem, radii, P, guess.rows, solution.q, guess.lambda);
+  if (!held) return std::nullopt;
+  const std::vector<Index> more = more_rows(*held);
+  guess.rows.insert(guess.rows.end(), more.begin(), more.end());
+  const auto all = hold(problem, radii, P, guess.rows, solution.q, guess.lambda);
+  if (!all) return std::nullopt;
+  const std::vector<Index> rows = disguised(*all);
   if (rows.empty()) return std::nullopt;
-  return bound_from(with_equalities(problem, rows), radii, P, solution, std::move(held));
+  return bound_from(with_equalities(problem, rows), radii, P, solution, guess);
 }
 
 /// The bound, for every problem within the radii.
 std::optional<double> bound_within(const NearestPointProblem& problem, const Solution& solution,
                                    const RadiiOf& radii) {
   if (!is_ordinary_problem(problem, solution)) return std::nullopt;
-  Held held{solution.basis.empty() ? loaded_rows(solution) : solution.basis, solution.lambda};
-  if (!is_dense_size(problem, held.rows.size()))
-    return sparse_enclosed_error(problem, radii, solution, held.rows);
+  const Guess active{solution.basis.empty() ? loaded_rows(solution) : solution.basis, solution.lambda};
+  if (!is_dense_size(problem, active.rows.size()))
+    return sparse_enclosed_error(problem, radii, solution, active.rows);
   const auto P = preconditioned(problem.A, radii);
   if (!P || !(P->delta < 0.5)) return std::nullopt;
-  if (auto bound = bound_from(problem, radii, *P, solution, held)) return bound;
-  if (auto bound = bound_with_disguised(problem, radii, *P, solution, std::move(held))) return bound;
+  if (auto bound = bound_from(problem, radii, *P, solution, active)) return bound;
+  if (auto bound = bound_with_disguised(problem, radii, *P, solution, active)) return bound;
   auto chosen = independent(problem, solution);
-  return chosen ? bound_from(problem, radii, *P, solution, std::move(*chosen)) : std::nullopt;
+  return chosen ? bound_from(problem, radii, *P, solution, *chosen) : std::nullopt;
 }
 
 }  // namespace

@@ -280,23 +280,4 @@ ExactSolution exact_active_set(const ExactProblem& problem, const std::vector<In
   return ExactActiveSet(problem, guess, most_words).solve();
 }
 
-std::vector<ExactVector> exact_expansions(const ExactProblem& problem, const std::vector<Index>& basis,
-                                          const std::vector<Index>& rows) {
-  std::vector<ExactVector> all;
-  if (rows.empty()) return all;
-  const ExactHeldRows held(problem, basis);
-  const std::size_t n = problem.z.size();
-  for (Index p : rows) {
-    const ExactVector direction = held.direction(problem.U[at(p)]);
-    for (std::size_t i = 0; i < n; ++i)
-      invariant(direction.numerators[i].is_zero(), "a row depends on rows that span it modulo a large prime");
-    std::vector<Fraction> coefficients;
-    for (std::size_t k = 0; k < basis.size(); ++k)
-      coefficients.push_back(lowest_terms({-direction.numerators[n + k] * problem.row_unit[at(basis[k])],
-                                           direction.denominator * problem.row_unit[at(p)]}));
-    all.push_back(exact_vector(coefficients));
-  }
-  return all;
-}
-
 }  // namespace convex::inline proof

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "convex/exact/elimination.hpp"
-#include "convex/exact/integer_system.hpp"
 #include "convex/exact/modular.hpp"
 
 namespace convex::inline proof {
@@ -26,65 +25,50 @@ ExactProblem as_integers(const RestrictedRows& rows) {
   return exact;
 }
 
-IntegerVector dependence_of(const ExactProblem& exact) {
-  const std::size_t k = exact.U.size(), r = exact.z.size();
-  IntegerRows columns(r, IntegerVector(k));
-  for (std::size_t a = 0; a < k; ++a)
-    for (std::size_t i = 0; i < r; ++i) columns[i][a] = exact.U[a][i];
-  const std::vector<std::size_t> chosen = independent_rows(columns, k);
-  if (chosen.size() + 1 != k) return {};
-  IntegerRows M;
+std::optional<RowBasis> RowBasis::of(const IntegerRows& rows, std::size_t dimension) {
+  IntegerRows columns(dimension), square;
+  for (std::size_t i = 0; i < dimension; ++i)
+    for (const IntegerVector& row : rows) columns[i].push_back(row[i]);
+  std::vector<std::size_t> coordinates = independent_rows(columns, rows.size());
+  if (coordinates.size() != rows.size()) return std::nullopt;
+  for (std::size_t i : coordinates) square.push_back(columns[i]);
+  auto system = IntegerSystem::prepared(square);
+  if (!system) return std::nullopt;
+  return RowBasis(std::move(columns), std::move(coordinates), *std::move(system));
+}
+
+std::optional<ExactVector> RowBasis::coefficients(const IntegerVector& u) const {
   IntegerVector right;
-  for (std::size_t i : chosen) {
-    M.emplace_back(columns[i].begin() + 1, columns[i].end());
-    right.push_back(-columns[i][0]);
-  }
-  const auto system = IntegerSystem::prepared(M);
-  if (!system) return {};
-  const ExactVector others = system->solve(right);
-  IntegerVector w{others.denominator};
-  w.insert(w.end(), others.numerators.begin(), others.numerators.end());
-  for (std::size_t a = 0; a < k; ++a) w[a] *= exact.row_unit[a];
+  for (std::size_t i : coordinates_) right.push_back(u[i]);
+  ExactVector c = system_.solve(right);
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (dot(columns_[i], c.numerators) != c.denominator * u[i]) return std::nullopt;
+  return c;
+}
+
+IntegerVector dependence_of(const ExactProblem& exact) {
+  const auto others = RowBasis::of({exact.U.begin() + 1, exact.U.end()}, exact.z.size());
+  const auto c = others ? others->coefficients(exact.U[0]) : std::nullopt;
+  if (!c) return {};
+  IntegerVector w{c->denominator};
+  for (const Integer& numerator : c->numerators) w.push_back(-numerator);
+  for (std::size_t a = 0; a < w.size(); ++a) w[a] *= exact.row_unit[a];
   make_primitive(w);
   return w;
 }
 
-namespace {
-
-/// Weights w, all needed and w_0 > 0, with Σ w_r u_r = 0 exactly over the rows, and Σ w_r s_r.
-struct ZeroSum {
-  IntegerVector w;
-  Fraction left;
-};
-
-std::optional<ZeroSum> zero_sum(const NearestPointProblem& problem, const std::vector<Index>& rows) {
-  const ExactProblem exact = as_integers(restricted_rows(problem, rows));
-  // The weights are of the rows themselves; those of `exact` are theirs times row_unit.
-  ZeroSum found{dependence_of(exact), {}};
-  const IntegerVector& w = found.w;
-  if (w.empty() || w[0].is_zero()) return std::nullopt;
-  for (std::size_t r = 0; r < w.size(); ++r)
-    found.left = found.left + Fraction{w[r], 1} * Fraction{exact.s[r], exact.row_unit[r]};
-  for (std::size_t i = 0; i < exact.z.size(); ++i) {
-    Fraction sum{};
-    for (std::size_t r = 0; r < w.size(); ++r)
-      if (!exact.U[r][i].is_zero())
-        sum = sum + Fraction{w[r], 1} * Fraction{exact.U[r][i], exact.row_unit[r]};
-    if (sign(sum) != 0) return std::nullopt;
-  }
-  return found;
-}
-
-}  // namespace
-
 bool are_equalities(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
   std::vector<Index> rows{a};
   rows.insert(rows.end(), others.begin(), others.end());
-  const auto found = zero_sum(problem, rows);
-  if (!found || sign(found->left) != 0) return false;
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    if (found->w[r].sign() <= 0 && !problem.is_two_sided(rows[r])) return false;
-  return true;
+  const ExactProblem exact = as_integers(restricted_rows(problem, rows));
+  const IntegerVector w = dependence_of(exact);
+  if (w.empty()) return false;
+  Fraction left;
+  for (std::size_t r = 0; r < w.size(); ++r) {
+    if (w[r].sign() <= 0 && !problem.is_two_sided(rows[r])) return false;
+    left = left + Fraction{w[r], 1} * Fraction{exact.s[r], exact.row_unit[r]};
+  }
+  return sign(left) == 0;
 }
 
 std::optional<bool> depend_as_told(const NearestPointProblem& problem, const std::vector<Index>& basic,
@@ -136,28 +120,18 @@ bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>
   double words = K * K * n + static_cast<double>(rows.size()) * K * n;
   if (words > most_words) return false;
   const ExactProblem exact = as_integers(restricted_rows(problem, all));
-  IntegerRows columns(exact.z.size(), IntegerVector(k));
-  for (std::size_t i = 0; i < exact.z.size(); ++i)
-    for (std::size_t r = 0; r < k; ++r) columns[i][r] = exact.U[r][i];
-  const std::vector<std::size_t> chosen = independent_rows(columns, k);
-  if (chosen.size() != k) return false;
-  IntegerRows M;
-  for (std::size_t i : chosen) M.push_back(columns[i]);
-  const auto system = IntegerSystem::prepared(M);
-  if (!system) return false;
-  IntegerVector right(k);
+  const auto held_rows = static_cast<std::ptrdiff_t>(k);
+  const auto basis = RowBasis::of({exact.U.begin(), exact.U.begin() + held_rows}, exact.z.size());
+  if (!basis) return false;
+  const IntegerVector bounds(exact.s.begin(), exact.s.begin() + held_rows);
   for (std::size_t p = 0; p < rows.size(); ++p) {
-    const IntegerVector& u = exact.U[k + p];
-    for (std::size_t r = 0; r < k; ++r) right[r] = u[chosen[r]];
-    const ExactVector c = system->solve(right);
     // Of the integer rows: denominator u = Σ numerators_r u_r, and the bounds.
-    for (std::size_t i = 0; i < exact.z.size(); ++i)
-      if (dot(columns[i], c.numerators) != c.denominator * u[i]) return false;
-    const IntegerVector bounds(exact.s.begin(), exact.s.begin() + static_cast<std::ptrdiff_t>(k));
-    const int off = (dot(bounds, c.numerators) - c.denominator * exact.s[k + p]).sign();
+    const auto c = basis->coefficients(exact.U[k + p]);
+    if (!c) return false;
+    const int off = (dot(bounds, c->numerators) - c->denominator * exact.s[k + p]).sign();
     if (problem.is_two_sided(rows[p]) ? off != 0 : off < 0) return false;
-    std::size_t bits = c.denominator.bits();
-    for (const Integer& numerator : c.numerators) bits = std::max(bits, numerator.bits());
+    std::size_t bits = c->denominator.bits();
+    for (const Integer& numerator : c->numerators) bits = std::max(bits, numerator.bits());
     words += K * K * (2 + 2 * static_cast<double>(bits) / 62) * 2;
     if (words > most_words) return false;
   }

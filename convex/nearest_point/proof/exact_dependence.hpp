@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "convex/exact/integer_system.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/proof/exact_problem.hpp"
 
@@ -16,8 +17,26 @@ RestrictedRows restricted_rows(const NearestPointProblem&, const std::vector<Ind
 /// The same as integers, A left out.
 ExactProblem as_integers(const RestrictedRows&);
 
-/// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
-/// rows are independent in; empty when there is more than one such w up to a factor.
+/// Independent integer rows, with as many coordinates in which they are independent too.
+class RowBasis {
+ public:
+  /// None when the rows depend on each other.
+  static std::optional<RowBasis> of(const IntegerRows& rows, std::size_t dimension);
+  const std::vector<std::size_t>& coordinates() const { return coordinates_; }
+  /// c with u = Σ c_k u_k; none where u is no such sum.
+  std::optional<ExactVector> coefficients(const IntegerVector& u) const;
+
+ private:
+  RowBasis(IntegerRows columns, std::vector<std::size_t> coordinates, IntegerSystem system)
+      : columns_(std::move(columns)), coordinates_(std::move(coordinates)), system_(std::move(system)) {}
+
+  IntegerRows columns_;  ///< of the rows
+  std::vector<std::size_t> coordinates_;
+  IntegerSystem system_;
+};
+
+/// Integers w without a common factor, w_0 > 0, with Σ w_a U_a / row_unit_a = 0 over all rows; empty when
+/// those but the first depend on each other, or the first does not on them.
 IntegerVector dependence_of(const ExactProblem& exact);
 
 /// Whether rows a and `others`, each of them needed, add up to 0 with positive weights (of any sign on

@@ -35,9 +35,4 @@ double word_operations(const ExactProblem&, std::size_t held);
 /// Whether wᵀU = 0, w·s > 0 and w >= 0 on one-sided rows, in integers. w: m.
 bool proves_infeasibility(const ExactProblem&, const IntegerVector& w);
 
-/// The coefficients of the rows asked for in the basis, independent rows: u_p = Σ T_kp u_k. One vector a row
-/// asked for; each must depend on the basis.
-std::vector<ExactVector> exact_expansions(const ExactProblem&, const std::vector<Index>& basis,
-                                          const std::vector<Index>& rows);
-
 }  // namespace convex::inline proof

@@ -100,44 +100,6 @@ bool find_orthogonalizer(const Matrix& V, Matrix& T) {
 
 }  // namespace
 
-std::optional<Active> active_rows(const NearestPointProblem& problem, const RadiiOf& radii,
-                                  const Preconditioned& P, const std::vector<Index>& rows) {
-  const Index n = P.dimension(), k = static_cast<Index>(rows.size());
-  if (k > n) return std::nullopt;
-  Active active;
-  active.U.resize(k, n);
-  for (Index r = 0; r < k; ++r) active.U.row(r) = problem.U.row(rows[at(r)]);
-  if (k == 0) return active;
-  if (!is_ordinary(active.U)) return std::nullopt;
-  const Matrix V =
-      P.is_diagonal ? Matrix(P.x.asDiagonal() * active.U.transpose()) : Matrix(P.X * active.U.transpose());
-  if (!find_orthogonalizer(V, active.T)) return std::nullopt;
-  keep_ordinary(active.T);
-  if (!is_ordinary(active.T)) return std::nullopt;
-  active.Z = V * active.T.triangularView<Eigen::Upper>();
-
-  // Ẑ - Z <= |X| (gamma_n |Uᵀ| + Ûᵀ) |T| + gamma_k |V| |T|, entry by entry.
-  const Matrix T = active.T.cwiseAbs(), U = active.U.cwiseAbs(), W = V.cwiseAbs();
-  const Vector inner = T * Vector::Ones(k);
-  const Vector rows_of_error = gamma(n) * P.spread(U.transpose() * inner) + gamma(k) * (W * inner) +
-                               P.spread(radii.rows_transposed_times(rows, inner, n));
-  const Vector outer =
-      P.is_diagonal ? Vector(P.x.cwiseAbs()) : Vector(P.X.cwiseAbs().transpose() * Vector::Ones(n));
-  const Vector columns_of_error =
-      T.transpose() *
-      (gamma(n) * (U * outer) + gamma(k) * (W.transpose() * Vector::Ones(n)) + radii.rows_times(rows, outer));
-  const double error = matrix_norm(rows_of_error, columns_of_error);
-
-  Matrix S = gram(active.Z);
-  S.diagonal().array() -= 1;
-  const Matrix size = active.Z.cwiseAbs();
-  const Vector rounding =
-      gamma(n) * (size.transpose() * (size * Vector::Ones(k))) + 2 * unit_roundoff * Vector::Ones(k);
-  const double computed = above((S.cwiseAbs() * Vector::Ones(k) + rounding).maxCoeff());
-  active.delta = above(computed + 2 * std::sqrt(1 + computed) * error + error * error);
-  return active;
-}
-
 KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radii,
                          const std::vector<Index>& rows, const HeldPoint& point) {
   const Index n = problem.dimension(), k = static_cast<Index>(rows.size());
@@ -202,45 +164,87 @@ KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radi
 namespace {
 
 /// One step of refinement, kept apart from q and lambda.
-void correct(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
+void correct(HeldRows& held, const KktResidual& residual) {
+  const Preconditioned& P = held.P;
+  HeldPoint& point = held.point;
   const Vector g = P.times_X(residual.r1);
-  if (active.U.rows() == 0) {
+  if (held.U.rows() == 0) {
     point.dq += P.times_X_transposed(g);
     return;
   }
-  const Vector c = active.T.transpose() * residual.r2;
-  const Vector y = c - active.Z.transpose() * g;
-  point.dq += P.times_X_transposed(g + active.Z * y);
-  point.dlambda += active.T * y;
+  const Vector c = held.T.transpose() * residual.r2;
+  const Vector y = c - held.Z.transpose() * g;
+  point.dq += P.times_X_transposed(g + held.Z * y);
+  point.dlambda += held.T * y;
 }
 
 /// Bounds on the error of the held point from its residual.
-void enclose(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
-  const Index n = P.dimension(), k = active.U.rows();
+void enclose(HeldRows& held, const KktResidual& residual) {
+  const Preconditioned& P = held.P;
+  HeldPoint& point = held.point;
+  const Index n = P.dimension(), k = held.U.rows();
   const double imbalance =
       above(norm_above(P.times_X(residual.r1)) +
             norm_above(P.spread(gamma(n) * residual.r1.cwiseAbs() + residual.r1_radius)));
   double gap = 0;
   if (k > 0) {
-    const Matrix T = active.T.cwiseAbs();
-    gap = above(norm_above(active.T.transpose() * residual.r2) +
+    const Matrix T = held.T.cwiseAbs();
+    gap = above(norm_above(held.T.transpose() * residual.r2) +
                 norm_above(T.transpose() * (gamma(k) * residual.r2.cwiseAbs() + residual.r2_radius)));
   }
-  const double low_A = below(1 - P.delta), low_Z = below(1 - active.delta);
+  const double low_A = below(1 - P.delta), low_Z = below(1 - held.delta);
   point.radius = above(imbalance / std::sqrt(low_A) + gap * std::sqrt((1 + P.delta) / low_Z));
-  const double y = above((1 + P.delta) / low_Z * (gap + std::sqrt(1 + active.delta) / low_A * imbalance));
+  const double y = above((1 + P.delta) / low_Z * (gap + std::sqrt(1 + held.delta) / low_A * imbalance));
   point.multiplier_radius.resize(k);
-  for (Index r = 0; r < k; ++r) point.multiplier_radius[r] = above(norm_above(active.T.row(r)) * y);
+  for (Index r = 0; r < k; ++r) point.multiplier_radius[r] = above(norm_above(held.T.row(r)) * y);
+}
+
+/// Fills in T, Z and delta of the rows; false when they are dependent, for all that doubles tell.
+bool orthogonalise(HeldRows& held) {
+  const Preconditioned& P = held.P;
+  const Index n = P.dimension(), k = held.U.rows();
+  if (k == 0) return true;
+  if (k > n || !is_ordinary(held.U)) return false;
+  const Matrix V =
+      P.is_diagonal ? Matrix(P.x.asDiagonal() * held.U.transpose()) : Matrix(P.X * held.U.transpose());
+  if (!find_orthogonalizer(V, held.T)) return false;
+  keep_ordinary(held.T);
+  if (!is_ordinary(held.T)) return false;
+  held.Z = V * held.T.triangularView<Eigen::Upper>();
+
+  // Ẑ - Z <= |X| (gamma_n |Uᵀ| + Ûᵀ) |T| + gamma_k |V| |T|, entry by entry.
+  const Matrix T = held.T.cwiseAbs(), U = held.U.cwiseAbs(), W = V.cwiseAbs();
+  const Vector inner = T * Vector::Ones(k);
+  const Vector rows_of_error = gamma(n) * P.spread(U.transpose() * inner) + gamma(k) * (W * inner) +
+                               P.spread(held.radii.rows_transposed_times(held.rows, inner, n));
+  const Vector outer =
+      P.is_diagonal ? Vector(P.x.cwiseAbs()) : Vector(P.X.cwiseAbs().transpose() * Vector::Ones(n));
+  const Vector columns_of_error =
+      T.transpose() * (gamma(n) * (U * outer) + gamma(k) * (W.transpose() * Vector::Ones(n)) +
+                       held.radii.rows_times(held.rows, outer));
+  const double error = matrix_norm(rows_of_error, columns_of_error);
+
+  Matrix S = gram(held.Z);
+  S.diagonal().array() -= 1;
+  const Matrix size = held.Z.cwiseAbs();
+  const Vector rounding =
+      gamma(n) * (size.transpose() * (size * Vector::Ones(k))) + 2 * unit_roundoff * Vector::Ones(k);
+  const double computed = above((S.cwiseAbs() * Vector::Ones(k) + rounding).maxCoeff());
+  held.delta = above(computed + 2 * std::sqrt(1 + computed) * error + error * error);
+  return held.delta < 0.5;
 }
 
 }  // namespace
 
-HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-                     const Active& active, const std::vector<Index>& rows, const Vector& q,
-                     const Vector& lambda) {
+std::optional<HeldRows> hold(const NearestPointProblem& problem, const RadiiOf& radii,
+                             const Preconditioned& P, const std::vector<Index>& rows, const Vector& q,
+                             const Vector& lambda) {
   const auto k = static_cast<Index>(rows.size());
-  HeldPoint point{q, Vector::Zero(problem.dimension()), Vector(k), Vector::Zero(k), {}, 0};
-  for (Index r = 0; r < k; ++r) point.lambda[r] = lambda[rows[at(r)]];
+  HeldRows held{problem, radii, P, rows, Matrix(k, P.dimension()), {}, {}};
+  for (Index r = 0; r < k; ++r) held.U.row(r) = problem.U.row(rows[at(r)]);
+  if (!orthogonalise(held)) return std::nullopt;
+  HeldPoint& point = held.point;
+  point = {q, Vector::Zero(problem.dimension()), lambda(rows), Vector::Zero(k), {}, 0};
   // Corrections until they no longer shrink the radius: where rows are open the bound takes its root.
   constexpr int most_corrections = 4;
   constexpr double still_shrinks = 0.25;
@@ -248,24 +252,25 @@ HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, c
   HeldPoint best = point;
   best.radius = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_corrections; ++step) {
-    correct(P, active, residual, point);
+    correct(held, residual);
     // What is too small to matter is left to the bound.
     point.dq = (point.dq.array().abs() >= smallest_ordinary).select(point.dq, 0.0);
     point.dlambda = (point.dlambda.array().abs() >= smallest_ordinary).select(point.dlambda, 0.0);
     residual = kkt_residual(problem, radii, rows, point);
-    enclose(P, active, residual, point);
+    enclose(held, residual);
     const bool shrinks = point.radius < still_shrinks * best.radius;
     if (point.radius < best.radius || step == 0) best = point;
     if (!shrinks) break;
   }
-  return best;
+  point = std::move(best);
+  return std::isfinite(point.radius) ? std::optional(std::move(held)) : std::nullopt;
 }
 
-double unbalanced_above(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-                        const std::vector<Index>& rows, HeldPoint point) {
+double unbalanced_above(const HeldRows& held) {
+  HeldPoint point = held.point;
   point.dq.setZero();
-  const KktResidual residual = kkt_residual(problem, radii, rows, point);
-  return dual_length_above(P, residual.r1, residual.r1_radius);
+  const KktResidual residual = kkt_residual(held.problem, held.radii, held.rows, point);
+  return dual_length_above(held.P, residual.r1, residual.r1_radius);
 }
 
 double length_above(const Preconditioned& P, const RadiiOf& radii, const Vector& dq) {

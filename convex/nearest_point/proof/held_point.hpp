@@ -54,19 +54,8 @@ struct Preconditioned {
 /// None when a number is out of the range that bounds are made for.
 std::optional<Preconditioned> preconditioned(const Metric&, const RadiiOf&);
 
-/// The active rows seen through X and T ≈ R⁻¹: Z = X U_Sᵀ T, ZᵀZ = I + Δ with |Δ|₂ <= delta < 1.
-struct Active {
-  Matrix U;  // the rows, k×n
-  Matrix T, Z;
-  double delta = 0;
-};
-
-/// None when rows are dependent, for all that doubles tell.
-std::optional<Active> active_rows(const NearestPointProblem&, const RadiiOf&, const Preconditioned&,
-                                  const std::vector<Index>& rows);
-
-/// What is known of the point that the active rows define: q + dq within `radius` in the metric, its
-/// multipliers lambda + dlambda within theirs.
+/// What is known of the point that some rows define: q + dq within `radius` in the metric, its multipliers
+/// lambda + dlambda within theirs.
 struct HeldPoint {
   Vector q, dq, lambda, dlambda, multiplier_radius;
   double radius = 0;
@@ -80,13 +69,31 @@ struct KktResidual {
 KktResidual kkt_residual(const NearestPointProblem&, const RadiiOf&, const std::vector<Index>& rows,
                          const HeldPoint&);
 
-/// The point of the rows from a guess, refined once, with its bounds.
-HeldPoint held_point(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
-                     const std::vector<Index>& rows, const Vector& q, const Vector& lambda);
+/// Rows held with equality, and their point. Seen through X and T ≈ R⁻¹ they are independent: Z = X U_Sᵀ T,
+/// ZᵀZ = I + Δ with |Δ|₂ <= delta < ½. The problem, its radii and its metric are referred to.
+struct HeldRows {
+  const NearestPointProblem& problem;
+  const RadiiOf& radii;
+  const Preconditioned& P;
+  std::vector<Index> rows;
+  Matrix U;  // of the rows, k×n
+  Matrix T, Z;
+  double delta = 0;
+  HeldPoint point = {};
 
-/// At least ||Aq - z - U_Sᵀ(lambda + dlambda)||_(A⁻¹) of a held point, its dq left out.
-double unbalanced_above(const NearestPointProblem&, const RadiiOf&, const Preconditioned&,
-                        const std::vector<Index>& rows, HeldPoint);
+  /// lambda_k + dlambda_k at least.
+  double least_multiplier(Index k) const {
+    return below(point.lambda[k] + point.dlambda[k]) - above(point.multiplier_radius[k]);
+  }
+};
+
+/// From a guess of their point, q (n) and lambda (m), refined as far as that helps. None when rows are
+/// dependent, for all that doubles tell.
+std::optional<HeldRows> hold(const NearestPointProblem&, const RadiiOf&, const Preconditioned&,
+                             const std::vector<Index>& rows, const Vector& q, const Vector& lambda);
+
+/// At least ||Aq - z - U_Sᵀ(lambda + dlambda)||_(A⁻¹), the dq of the point left out.
+double unbalanced_above(const HeldRows&);
 
 /// At least ||dq||_A, for every metric within the radii.
 double length_above(const Preconditioned&, const RadiiOf&, const Vector& dq);

@@ -37,40 +37,41 @@ Range along(const Vector& row, const RadiiOf& radii, Index a, const Vector& d, d
   return {product - above(off), product + above(off)};
 }
 
-/// ||u - U_Sᵀc||_(A⁻¹) at most, for the best c that doubles find: 0 for a row that depends on those held.
-double distance_from_held(const Vector& u, const RadiiOf& radii, Index a, const Preconditioned& P,
-                          const Active& active, const std::vector<Index>& held) {
-  const Index n = P.dimension(), k = active.U.rows();
-  const Vector c = coefficients_on_held(P, active, u);
+/// ||u_a - U_Sᵀc||_(A⁻¹) at most, for the best c that doubles find: 0 for a row that depends on those held.
+double distance_from_held(const Vector& u, Index a, const HeldRows& held) {
+  const RadiiOf& radii = held.radii;
+  const Index n = held.P.dimension(), k = held.U.rows();
+  const Vector c = coefficients_on_held(held, u);
   CompensatedSums rest(n);
   rest.add(u.data(), 1);
   Vector row(n);
   for (Index r = 0; r < k; ++r) {
     if (std::abs(c[r]) < smallest_ordinary) continue;
-    row = active.U.row(r);
+    row = held.U.row(r);
     rest.add(row.data(), -c[r]);
   }
   Vector value, spread;
   rest.result(value, spread);
-  spread += radii.rows_transposed_times(held, c.cwiseAbs(), n);
+  spread += radii.rows_transposed_times(held.rows, c.cwiseAbs(), n);
   spread += radii.rows_transposed_times({a}, Vector::Ones(1), n);
-  return dual_length_above(P, value, spread);
+  return dual_length_above(held.P, value, spread);
 }
 
 }  // namespace
 
-Vector coefficients_on_held(const Preconditioned& P, const Active& active, const Vector& u) {
-  return active.T * (active.Z.transpose() * P.times_X(u));
+Vector coefficients_on_held(const HeldRows& held, const Vector& u) {
+  return held.T * (held.Z.transpose() * held.P.times_X(u));
 }
 
-std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem, const RadiiOf& radii,
-                                              const Preconditioned& P, const Active& active,
-                                              const std::vector<Index>& held, const HeldPoint& point,
-                                              const std::vector<OpenRow>& open) {
-  const Index n = problem.dimension(), k = active.U.rows();
+std::optional<OpenBound> bound_with_open_rows(const HeldRows& held, const std::vector<OpenRow>& open) {
+  const NearestPointProblem& problem = held.problem;
+  const RadiiOf& radii = held.radii;
+  const Preconditioned& P = held.P;
+  const HeldPoint& point = held.point;
+  const Index n = problem.dimension(), k = held.U.rows();
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   const Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
-  std::vector<Index> rows = held;
+  std::vector<Index> rows = held.rows;
   for (const OpenRow& o : open) rows.push_back(o.row);
   const auto d = opening(problem, rows, two_sided, length);
   if (!d || !is_ordinary(Vector((d->array().abs() >= smallest_ordinary).select(*d, 0.0))))
@@ -80,26 +81,26 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   Vector row(n);
   Vector missed = Vector::Zero(k);
   for (Index r = 0; r < k; ++r) {
-    if (!two_sided[at(held[at(r)])]) continue;
-    row = active.U.row(r);
-    const Range range = along(row, radii, held[at(r)], *d, 0);
+    if (!two_sided[at(held.rows[at(r)])]) continue;
+    row = held.U.row(r);
+    const Range range = along(row, radii, held.rows[at(r)], *d, 0);
     missed[r] = std::max(std::abs(range.low), std::abs(range.high));
   }
-  const double weak = above(std::sqrt((1 + P.delta) / below(1 - active.delta)));
-  const double mend = k > 0 ? above(weak * norm_above(active.T.cwiseAbs().transpose() * missed)) : 0;
+  const double weak = above(std::sqrt((1 + P.delta) / below(1 - held.delta)));
+  const double mend = k > 0 ? above(weak * norm_above(held.T.cwiseAbs().transpose() * missed)) : 0;
   const double stride = above(length_above(P, radii, *d) + mend);
 
   // How far every row opens, and what that costs: λ_S·U_S d.
   double cost = 0, steepest = 0;
   for (Index r = 0; r < k; ++r) {
-    if (two_sided[at(held[at(r)])]) continue;
-    row = active.U.row(r);
-    const Range range = along(row, radii, held[at(r)], *d, 0);
+    if (two_sided[at(held.rows[at(r)])]) continue;
+    row = held.U.row(r);
+    const Range range = along(row, radii, held.rows[at(r)], *d, 0);
     const double lambda = point.lambda[r] + point.dlambda[r], radius = point.multiplier_radius[r];
-    const double least = below(lambda) - above(radius);
+    const double least = held.least_multiplier(r);
     if (!(range.low >= 0) || !(least > 0)) return std::nullopt;
     cost += above(lambda + radius) * range.high;
-    steepest = std::max(steepest, above(norm_above(active.T.row(r)) / least));
+    steepest = std::max(steepest, above(norm_above(held.T.row(r)) / least));
   }
   double step = 0, off_held = 0;
   for (const OpenRow& o : open) {
@@ -109,7 +110,7 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
     const double opens = along(row, radii, o.row, *d, above(imbalance * mend)).low;
     if (!(opens > 0)) return std::nullopt;
     step = std::max(step, above(o.below_zero / opens));
-    off_held = std::max(off_held, above(distance_from_held(row, radii, o.row, P, active, held) / opens));
+    off_held = std::max(off_held, above(distance_from_held(row, o.row, held) / opens));
   }
   // P(q*) <= P(q_S + step d): λ_S·U_S(q* - q_S) + ½||q* - q_S||² <= κ.
   const double kappa = above(step * cost + 0.5 * above(step * step) * above(stride * stride));

@@ -18,15 +18,18 @@ struct OpenRow {
 /// What is known of the slacks of rows that are not held.
 class HeldSlacks {
  public:
-  HeldSlacks(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-             const std::vector<Index>& rows, const HeldPoint& point)
-      : problem_(problem), radii_(radii), point_(point), held_(marked(problem.rows(), rows)) {
+  explicit HeldSlacks(const HeldRows& held)
+      : problem_(held.problem),
+        radii_(held.radii),
+        point_(held.point),
+        held_(marked(held.problem.rows(), held.rows)) {
+    const Preconditioned& P = held.P;
     // |v_i| <= ||v||_A sqrt((A⁻¹)_ii), and A⁻¹ = Xᵀ A'⁻¹ X.
     const Index n = P.dimension();
     per_length_.resize(n);
     for (Index i = 0; i < n; ++i) per_length_[i] = P.is_diagonal ? std::abs(P.x[i]) : norm_above(P.X.col(i));
     per_length_ *= above(1 / std::sqrt(below(1 - P.delta)));
-    size_ = above(1) * (point.q.cwiseAbs() + point.dq.cwiseAbs());
+    size_ = above(1) * (point_.q.cwiseAbs() + point_.dq.cwiseAbs());
   }
 
   /// The rows whose slack may be gone, and all two-sided ones, when the held point moves by `reach` in
@@ -72,7 +75,7 @@ class HeldSlacks {
 };
 
 /// Coefficients c of the combination U_Sᵀc of the working set that is nearest to u, as doubles find them.
-Vector coefficients_on_held(const Preconditioned&, const Active&, const Vector& u);
+Vector coefficients_on_held(const HeldRows&, const Vector& u);
 
 /// How far the solution q* is from the point q_S of the working set when rows besides may be violated there:
 /// rows that depend on those held, or do but for rounding.
@@ -85,9 +88,6 @@ struct OpenBound {
 /// Proved for every problem within the radii (docs/proof.md, section 3, "Rows that depend on others"), from a
 /// direction that opens all rows, found on the way; it proves that there is a solution, too. None where there
 /// is no such direction, or a multiplier of a row of the working set may be 0.
-std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem&, const RadiiOf&,
-                                              const Preconditioned&, const Active&,
-                                              const std::vector<Index>& held, const HeldPoint&,
-                                              const std::vector<OpenRow>&);
+std::optional<OpenBound> bound_with_open_rows(const HeldRows&, const std::vector<OpenRow>&);
 
 }  // namespace convex::inline proof
