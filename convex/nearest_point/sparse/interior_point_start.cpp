@@ -32,10 +32,6 @@ constexpr int most_corrections = 10;
 /// The equations are met well enough for a look at the rows when this part of the first residual is left.
 constexpr double part_left = 0.1;
 
-/// Multipliers add up along a pile: a start from the free motion begins no smaller than this for each row
-/// that there is, in the scaled units.
-constexpr double load_of_a_row = 1e-4;
-
 /// A part of the way to the boundary.
 constexpr double short_of_boundary = 0.995;
 
@@ -86,19 +82,6 @@ void InteriorPointStart::stand_alone(Index limit) {
   stands_alone_ = true;
   limit_ = limit;
   step_.set_correctors(correctors);
-}
-
-void InteriorPointStart::start_from_free_motion() {
-  started_ = true;
-  held_ = false;
-  weight_.setConstant(regularisation);
-  if (!system_.factor(weight_)) return;
-  at_.q = system_.solve(problem_.z);
-  at_.slack = problem_.U * at_.q - problem_.s;
-  for (Index a = 0; a < at_.slack.size(); ++a)
-    if (!one_sided(a)) at_.slack[a] = 0;
-  at_.lambda = Vector::Zero(problem_.s.size());
-  make_interior();
 }
 
 /// A correction towards U q = s on the rows that look active, with multipliers of 0 on the others; its size.
@@ -167,36 +150,6 @@ double InteriorPointStart::start_near(const Vector& q, const Vector& lambda, dou
   const double miss = std::max(root_mean_square(rest), root_mean_square(lambda.cwiseMin(at_.slack)));
   centre(std::max(miss * miss, part_of_size * size));
   return infinity;
-}
-
-/// Mehrotra's shift: far enough inside, and not badly centred.
-void InteriorPointStart::make_interior() {
-  double lowest_slack = 0, lowest_lambda = 0, slack_sum = 0, lambda_sum = 0, product = 0;
-  const double count = step_.count();
-  double slack_size = 0, lambda_size = 0;
-  for (Index a = 0; a < at_.lambda.size(); ++a) {
-    if (!one_sided(a)) continue;
-    lowest_slack = std::min(lowest_slack, at_.slack[a]);
-    lowest_lambda = std::min(lowest_lambda, at_.lambda[a]);
-    slack_size += at_.slack[a] * at_.slack[a];
-    lambda_size += at_.lambda[a] * at_.lambda[a];
-  }
-  const double slack_shift = std::max(-1.5 * lowest_slack, 0.1 * std::sqrt(slack_size / count) + 1e-3);
-  const double lambda_shift =
-      std::max(-1.5 * lowest_lambda, 0.1 * std::sqrt(lambda_size / count) + 1e-3 + load_of_a_row * count);
-  for (Index a = 0; a < at_.lambda.size(); ++a) {
-    if (!one_sided(a)) continue;
-    at_.slack[a] += slack_shift;
-    at_.lambda[a] += lambda_shift;
-    slack_sum += at_.slack[a];
-    lambda_sum += at_.lambda[a];
-    product += at_.slack[a] * at_.lambda[a];
-  }
-  for (Index a = 0; a < at_.lambda.size(); ++a) {
-    if (!one_sided(a)) continue;
-    at_.slack[a] += 0.5 * product / lambda_sum;
-    at_.lambda[a] += 0.5 * product / slack_sum;
-  }
 }
 
 /// lambda dslack + slack dlambda = target, U dq - dslack = primal_rest, A dq - Uᵀdlambda = dual_rest.

@@ -18,9 +18,6 @@ class InteriorPointStart {
   /// sides in the last step, and the equations are met ten times better than at the start. unbounded:
   /// multipliers grow beyond all bounds, as where rows contradict each other.
   End approach(double gap, bool until_steady = false);
-  /// Begins, or begins again, with slacks and multipliers as large as the free motion violates the rows: for
-  /// problems in which rows of the working set together are far from the answer.
-  void start_from_free_motion();
   /// Begins from a point with multipliers that solve a problem like this one: the rows that look active there
   /// are held, and exchanged as long as fewer are wrong each time. Where none is wrong any more, that is the
   /// answer: how far from it corrections of the rows of the working set leave q, in the norm of A, at most
@@ -42,7 +39,6 @@ class InteriorPointStart {
 
  private:
   void start();
-  void make_interior();
   double hold_active_rows();
   void centre(double product);
   void solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target,

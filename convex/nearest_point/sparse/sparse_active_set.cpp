@@ -57,11 +57,7 @@ class SparseActiveSet {
                              problem_.A.solve(problem_.z).cwiseQuotient(scaled_.coordinate));
     for (std::size_t k = 0; k < gaps.size() && may_go_on(); ++k) {
       const Index before = start.steps();
-      InteriorPointStart::End end = start.approach(gaps[k], k == 0);
-      if (end == InteriorPointStart::End::stalled && k == 0) {
-        start.start_from_free_motion();
-        end = start.approach(gaps[k]);
-      }
+      const InteriorPointStart::End end = start.approach(gaps[k], k == 0);
       steps_ += start.steps() - before;
       if (end == InteriorPointStart::End::unbounded || (end == InteriorPointStart::End::stalled && k == 0)) {
         Solution refused = contradicted(start.lambda());
