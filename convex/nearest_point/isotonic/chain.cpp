@@ -18,9 +18,6 @@ namespace {
 /// A thread keeps so much for the next chain, 8 MB, and gives back what is more.
 constexpr Index most_kept_lines_of_chains = Index{1} << 17;
 
-bool are_plain_links(const InOrder& order) { return order.plain; }
-bool are_plain_links(const Listed&) { return false; }
-
 /// Adds the rows q_(k+1) - q_k >= s, which come after the first `floor` rows, to the residuals found.
 /// largest: of all lambda.
 void add_links(const NearestPointProblem& problem, Index floor, double scale, double largest,
@@ -76,7 +73,7 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
   const double scale = std::max(found.acceleration_norm, found.force_norm);
   // On level ground the coordinates of a pool are equal, and only the floor has anything left to round.
   const Index floor = order.row(0);
-  const bool by_blocks = are_plain_links(order), few = chain.is_level() || by_blocks;
+  const bool by_blocks = order.plain, few = chain.is_level() || by_blocks;
   if (few) {
     GatheredResiduals all(found.residuals.stationarity, found.acceleration_norm, scale, *largest);
     if (floor >= 0)
