@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "convex/exact/elimination.hpp"
+#include "convex/exact/integer_system.hpp"
 #include "convex/exact/modular.hpp"
 #include "convex/invariant.hpp"
-#include "convex/nearest_point/proof/exact_held_rows.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 #include "convex/nearest_point/solve_watch.hpp"
 
@@ -56,6 +56,61 @@ double operations_to_find(const ExactProblem& problem, const ExactVector& x, std
   return operations(problem, held, longest(row_bits(problem)), of_fractions);
 }
 
+/// The problem, which is referred to, with independent rows S held: its KKT system, which follows S, and its
+/// point, q before the multipliers of S, all over one denominator.
+class HeldInFractions {
+ public:
+  HeldInFractions(const ExactProblem& problem, const std::vector<Index>& rows)
+      : problem_(problem), rows_(rows), system_(prepared()) {}
+
+  ExactVector point() const {
+    IntegerVector right = problem_.z;
+    for (Index a : rows_) right.push_back(problem_.s[at(a)]);
+    return system_.solve(right);
+  }
+
+  /// How the point moves with the multiplier of one more row, and with it the multipliers of S.
+  ExactVector direction(const IntegerVector& row) const {
+    IntegerVector right = row;
+    right.resize(row.size() + rows_.size(), 0);
+    return system_.solve(right);
+  }
+
+  /// Row p as the last one of S; S without its row k.
+  void append(Index p) {
+    IntegerVector row = problem_.U[at(p)], column;
+    for (const Integer& entry : row) column.push_back(-entry);
+    const std::size_t size = row.size() + rows_.size();
+    row.resize(size, 0);
+    column.resize(size, 0);
+    rows_.push_back(p);
+    if (!system_.append(row, column)) system_ = prepared();
+  }
+  void remove(std::size_t k) {
+    rows_.erase(rows_.begin() + static_cast<std::ptrdiff_t>(k));
+    if (!system_.remove(problem_.z.size() + k)) system_ = prepared();
+  }
+
+ private:
+  IntegerSystem prepared() const {
+    const std::size_t n = problem_.z.size(), k = rows_.size();
+    IntegerRows M(n + k, IntegerVector(n + k, 0));
+    for (std::size_t i = 0; i < n; ++i) std::copy(problem_.A[i].begin(), problem_.A[i].end(), M[i].begin());
+    for (std::size_t r = 0; r < k; ++r)
+      for (std::size_t i = 0; i < n; ++i) {
+        M[n + r][i] = problem_.U[at(rows_[r])][i];
+        M[i][n + r] = -M[n + r][i];
+      }
+    auto system = IntegerSystem::prepared(M);
+    invariant(system.has_value(), "the KKT system of independent rows is regular modulo some large prime");
+    return *std::move(system);
+  }
+
+  const ExactProblem& problem_;
+  std::vector<Index> rows_;
+  IntegerSystem system_;
+};
+
 class ExactActiveSet {
  public:
   ExactActiveSet(const ExactProblem& problem, const std::vector<Index>& guess, double most_words)
@@ -102,7 +157,7 @@ class ExactActiveSet {
   }
 
   /// Affordable; the first time from nothing.
-  const ExactHeldRows& held() {
+  const HeldInFractions& held() {
     if (held_) return *held_;
     solution_.word_operations += operations_of_inverse(problem_, rows_.size());
     return held_.emplace(problem_, rows_);
@@ -239,7 +294,7 @@ class ExactActiveSet {
   Vector lengths_;
   double estimate_ = 0;
   std::vector<Index> rows_;
-  std::optional<ExactHeldRows> held_;  ///< the same rows, once a point was asked for
+  std::optional<HeldInFractions> held_;  ///< the same rows, once a point was asked for
   ExactVector point_;
   IntegerVector slack_;
   ExactSolution solution_;
