@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/exact/elimination.hpp"
 #include "convex/exact/fraction.hpp"
 #include "convex/nearest_point/gallery/families.hpp"
 #include "convex/nearest_point/gallery/planted.hpp"
+#include "convex/nearest_point/proof/exact_solution.hpp"
 
 namespace convex::inline families {
 namespace {
@@ -38,34 +38,10 @@ Matrix inertia(Index n, int range) {
   return A;
 }
 
-/// The solution v of K v = b for a regular K, as a nearest double and what is missing.
-DoubleDoubleVector exact_solution(const Matrix& K, const Vector& b) {
-  const Index n = b.size();
-  Matrix rows(n, n + 1);
-  rows << K, -b;
-  IntegerRows integers;
-  for (const ExactVector& row : exact_rows(rows)) integers.push_back(row.numerators);
-  const Echelon kernel = annihilator(echelon(integers, at(n + 1)));
-  DoubleDoubleVector v(n);
-  if (kernel.rank() != 1) return DoubleDoubleVector(0);
-  const IntegerVector& line = kernel.rows[0];
-  const Integer& last = line.back();
-  if (last.is_zero()) return DoubleDoubleVector(0);
-  const bool negative = last.sign() < 0;
-  const Integer denominator = negative ? -last : last;
-  for (Index i = 0; i < n; ++i) {
-    const Integer& entry = line[at(i)];
-    const DoubleDouble pair = nearest_pair({negative ? -entry : entry, denominator});
-    v.hi[i] = pair.hi;
-    v.lo[i] = pair.lo;
-  }
-  return v;
-}
-
 }  // namespace
 
-/// z is rounded, so the answer is not the one it was made from: it comes from the KKT system of the rows
-/// held, in exact arithmetic on the data as they are. A draw whose signs are not strict is drawn again.
+/// z is rounded, so the answer is not the one it was made from: it is solved for in fractions, on the data as
+/// they are. A draw whose signs are not strict is drawn again.
 GalleryInstance ill_conditioned(Index n, double condition, std::uint32_t seed) {
   const int range = std::min(bits - 1, static_cast<int>(std::lround(std::log2(condition))));
   const Matrix A = inertia(n, range);
@@ -82,26 +58,16 @@ GalleryInstance ill_conditioned(Index n, double condition, std::uint32_t seed) {
     std::vector<Index> active;
     for (Index a = 0; a < m; ++a)
       if (instance.multipliers[a] > 0) active.push_back(a);
-    const RowMatrix& U = instance.problem.U.dense();
-    Matrix K = Matrix::Zero(n + held, n + held);
-    Vector b(n + held);
-    K.topLeftCorner(n, n) = A;
-    b.head(n) = instance.problem.z;
-    for (Index k = 0; k < held; ++k) {
-      const Index a = active[at(k)];
-      K.block(0, n + k, n, 1) = -U.row(a).transpose();
-      K.block(n + k, 0, 1, n) = U.row(a);
-      b[n + k] = instance.problem.s[a];
-    }
-    const DoubleDoubleVector truth = exact_solution(K, b);
-    if (truth.size() == 0) continue;
-    instance.solution.hi = truth.hi.head(n);
-    instance.solution.lo = truth.lo.head(n);
-    bool strict = truth.hi.tail(held).minCoeff() > 0x1p-20;
-    for (Index k = 0; k < held; ++k) instance.multipliers[active[at(k)]] = truth.hi[n + k];
-    const Vector slack = U * instance.solution.hi - instance.problem.s;
-    for (Index a = 0; a < m; ++a) strict = strict && (instance.multipliers[a] > 0 || slack[a] > 0x1p-10);
-    if (strict) return instance;
+    const ExactSolution truth = exact_active_set(exact_problem(instance.problem), active);
+    const std::vector<bool> is_held = marked(m, active);
+    instance.multipliers = nearest(truth.lambda);
+    bool strict = true;
+    for (Index a = 0; a < m; ++a)
+      strict = strict && (is_held[at(a)] ? instance.multipliers[a] > 0x1p-20
+                                         : nearest_double(truth.slack[at(a)]) > 0x1p-10);
+    if (!strict) continue;
+    instance.solution = nearest_pairs(truth.q);
+    return instance;
   }
 }
 
