@@ -40,7 +40,11 @@ class Crossover {
       q = problem_.A.solve(problem_.z);
       lambda = Vector::Zero(problem_.rows());
     }
-    Solution raw = measured(q, lambda), held = active_rows_held(raw);
+    // Exact lengths cost a solve with A for each row, which is too much for thousands of them.
+    Solution raw = measured(problem_, q, lambda, {.length = is_dense_size(problem_) ? Vector() : row_scale_});
+    raw.method = candidate_.method;
+    raw.steps = candidate_.steps;
+    Solution held = active_rows_held(raw);
     if (std::optional<Solution> proved = infeasible(held.farkas); proved && candidate_.may_polish)
       return *proved;
     if (held.q.size() == 0 || held.undecided == open_question::conditioning) {
@@ -118,21 +122,6 @@ class Crossover {
     held.steps = candidate_.steps;
     held.model = {};
     return held;
-  }
-
-  Solution measured(const Vector& q, const Vector& lambda) const {
-    Solution solution;
-    solution.method = candidate_.method;
-    solution.steps = candidate_.steps;
-    solution.q = q;
-    solution.lambda = lambda;
-    solution.slack = problem_.U.times(q) - problem_.s;
-    solution.acceleration_norm = problem_.A.norm(q);
-    solution.force_norm = z_norm_;
-    // Exact lengths cost a solve with A for each row, which is too much for thousands of them.
-    solution.residuals =
-        residuals(problem_, solution, {.length = is_dense_size(problem_) ? Vector() : row_scale_});
-    return solution;
   }
 
   Solution with_status(Solution solution) const {

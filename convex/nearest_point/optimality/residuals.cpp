@@ -109,17 +109,23 @@ DoubleDouble exact_product(double value, double x) {
 
 }  // namespace
 
-Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
+Solution measured(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
+                  const KnownParts& known) {
   Solution found;
   found.q = q;
   found.lambda = lambda;
   found.slack = problem.U.times(q) - problem.s;
   found.acceleration_norm = problem.A.norm(q);
   found.force_norm = problem.A.dual_norm(problem.z);
-  return residuals(problem, found);
+  found.residuals = residuals(problem, found, known);
+  return found;
 }
 
-Residuals residuals(const NearestPointProblem& problem, const Solution& answer, KnownParts known) {
+Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
+  return measured(problem, q, lambda).residuals;
+}
+
+Residuals residuals(const NearestPointProblem& problem, const Solution& answer, const KnownParts& known) {
   const Vector &q = answer.q, &lambda = answer.lambda, &s = problem.s, &d = problem.A.diagonal();
   const ConstraintRows& U = problem.U;
   const Index m = problem.rows();

@@ -19,7 +19,11 @@ struct KnownParts {
 };
 /// The same for an answer with its norms and slacks, Uq - s as doubles give it; those near zero are computed
 /// again.
-Residuals residuals(const NearestPointProblem&, const Solution&, KnownParts known = {});
+Residuals residuals(const NearestPointProblem&, const Solution&, const KnownParts& known = {});
+
+/// q and lambda with their slacks, norms and residuals.
+Solution measured(const NearestPointProblem&, const Vector& q, const Vector& lambda,
+                  const KnownParts& known = {});
 
 /// Whether a row is violated by more than the error bound allows: then one of the two is wrong, and nothing
 /// is known of the error.

@@ -19,18 +19,13 @@ constexpr double trusted_mean = 1e-9;
 /// The point of a start, without a bound of its error.
 Solution point_of(const NearestPointProblem& problem, const BalancedProblem& scaled,
                   const InteriorPointStart& start) {
-  Solution now;
+  Vector lambda = start.lambda().cwiseProduct(scaled.multiplier);
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!start.looks_active(a)) lambda[a] = 0;
+  Solution now = measured(problem, start.q().cwiseProduct(scaled.coordinate), lambda);
   now.method = method_name;
   now.steps = start.steps();
-  now.q = start.q().cwiseProduct(scaled.coordinate);
-  now.lambda = start.lambda().cwiseProduct(scaled.multiplier);
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (!start.looks_active(a)) now.lambda[a] = 0;
-  now.slack = problem.U.times(now.q) - problem.s;
   now.farkas = Vector::Zero(problem.rows());
-  now.acceleration_norm = problem.A.norm(now.q);
-  now.force_norm = problem.A.dual_norm(problem.z);
-  now.residuals = residuals(problem, now);
   return now;
 }
 
