@@ -16,8 +16,6 @@ constexpr Index most_certified = 300;
 
 class Enumeration {
  public:
-  using Set = WorkingSet;
-
   Enumeration(const NearestPointProblem& problem, const Accuracy& accuracy, Index limit)
       : problem_(problem),
         accuracy_(accuracy),
@@ -27,7 +25,7 @@ class Enumeration {
     const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
     for (Index a = 0; a < problem.rows(); ++a) {
       if (two_sided[at(a)]) {
-        typename Set::Split split;
+        WorkingSet::Split split;
         set_.split(a, split);
         if (split.rho > 0) set_.append(a, split, 0);
       } else if (length_[a] > 0) {
@@ -41,7 +39,7 @@ class Enumeration {
     if (++steps_ > limit_) return false;
     if (is_right()) return false;
     for (std::size_t k = first; k < rows_.size(); ++k) {
-      typename Set::Split split;
+      WorkingSet::Split split;
       set_.split(rows_[k], split);
       if (!(split.rho > 0)) {
         if (contradicts(rows_[k], split)) return false;
@@ -92,7 +90,7 @@ class Enumeration {
   }
 
   /// Whether row p and the rows that it depends on are a proof that there is no solution.
-  bool contradicts(Index p, const typename Set::Split& split) {
+  bool contradicts(Index p, const WorkingSet::Split& split) {
     const double gap = contradiction(set_, p, split);
     if (!(std::abs(gap) > 0)) return false;
     const Vector weights = contradiction_weights(set_, p, split, gap > 0 ? 1 : -1);
@@ -103,7 +101,7 @@ class Enumeration {
 
   const NearestPointProblem& problem_;
   const Accuracy& accuracy_;
-  Set set_;
+  WorkingSet set_;
   Vector length_;
   Index limit_;
   std::vector<Index> rows_;

@@ -130,7 +130,7 @@ class ProportionedGradients {
   /// A step of conjugate gradients that leaves the face, projected; or a projected gradient step where that
   /// does not lower the objective. Returns by how much that fell.
   double expand(const Vector& p, double step, double longest) {
-    const Vector before = lambda_, gradient = gradient_, q = q_;
+    const Vector before = lambda_, gradient = gradient_, q = q_, phi = free_gradient();
     const auto to = [&](const Vector& by, double length) {
       for (Index a = 0; a < by.size(); ++a) {
         lambda_[a] = before[a] - length * by[a];
@@ -143,12 +143,6 @@ class ProportionedGradients {
     };
     const double fall = to(p, step);
     if (fall > 0) return fall;
-    const Vector phi = [&] {
-      Vector of = gradient;
-      for (Index a = 0; a < of.size(); ++a)
-        if (!is_free(a) && !(before[a] > 0)) of[a] = 0;
-      return of;
-    }();
     return to(phi, longest);
   }
   /// The gradient where a multiplier is free to move.
