@@ -29,7 +29,7 @@ using convex::InvalidInput;
 
 /// Of what is not finite at a state `solve` tells the place.
 void require_finite(const mechanics::LagrangianSystem& system, const mechanics::State& state) {
-  constexpr double any = 1e100;
+  constexpr double any = 1e100;  // whatever contacts are present
   const auto m = static_cast<convex::Index>(system.constraints().size());
   static_cast<void>(mechanics::gauss_problem(system, state, mechanics::Vector::Constant(m, any)));
 }
@@ -194,7 +194,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
     begun.emplace(*system, state, chosen);
   } catch (const InvalidInput& error) {
     if (options.resume) throw InvalidInput("--resume " + *options.resume + ": " + error.what());
-    if (!error.place()) require_finite(*system, state);
+    const bool is_of_values = std::string_view(error.what()).find("not finite") != std::string_view::npos;
+    if (!error.place() && is_of_values) require_finite(*system, state);
     throw InvalidInput(error.what(), error.place().value_or(text->system.kinetic.begin));
   }
   mechanics::Motion& motion = *begun;

@@ -84,10 +84,11 @@ class JsonReader {
 
   /// What JSON or Python write where there is no number.
   void refuse_words() const {
-    for (const std::string word : {"null", "NaN", "Infinity", "-Infinity"})
+    for (const std::string_view word : {"null", "NaN", "Infinity", "-Infinity"})
       if (text_.compare(at_, word.size(), word) == 0)
         throw InvalidInput(
-            key_ + ": " + word + " is no value here; give a finite number, or leave the key out", place());
+            key_ + ": " + std::string(word) + " is no value here; give a finite number, or leave the key out",
+            place());
   }
 
   void object(TomlValue& to, int depth) {

@@ -178,6 +178,7 @@ Value conjugate_value(const Function& f, const Vector& y, const Metric& W) {
   if (!std::isfinite(told.value)) return told;
   Vector x;
   try {
+    const auto part = WorkLimit::half_of_the_rest();
     x = f.prox(y, W).x;
   } catch (const InvalidInput&) {  // it says nothing of the value
     return told;

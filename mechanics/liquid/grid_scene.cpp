@@ -70,7 +70,8 @@ double lacking_at(const std::vector<WallCorner>& corners) {
 
 /// The walls that push less than they would have to be followed: p = 0 on them, strictly.
 std::vector<std::string> parted_walls(const LiquidScene& scene, const CutCells& cells,
-                                      const CutSolution& found, const std::vector<WallCorner>& corners) {
+                                      const CutSolution& found, const std::vector<WallCorner>& corners,
+                                      double largest) {
   double scale = 0;
   for (const WallPiece& wall : cells.walls) scale = std::max(scale, std::abs(wall.load));
   std::vector<bool> parts(scene.parts.size());
@@ -92,7 +93,7 @@ std::vector<std::string> parted_walls(const LiquidScene& scene, const CutCells& 
   }
   for (const WallCorner& corner : corners)
     for (std::size_t i = 0; i < 2; ++i)
-      if (corner.p < 0 && corner.flux[i] < 0)
+      if (corner.p < -digits * largest && corner.flux[i] < 0)
         parts[static_cast<std::size_t>(corner.walls[i] - scene.parts.data())] = true;
   std::vector<std::string> names;
   for (std::size_t k = 0; k < parts.size(); ++k)
@@ -176,11 +177,14 @@ Closed closed_state(const GridLevels& levels, LiquidSolution& solution) {
   return solution.surplus == 0 ? Closed::balanced : sum > 0 ? Closed::squeezed : Closed::lacking;
 }
 
-std::vector<CutSolution> solve_balanced(GridLevels& levels) {
+std::vector<CutSolution> solve_balanced(const LiquidScene& scene, GridLevels& levels) {
   levels.balance();
   std::vector<CutSolution> found = levels.solve(false);
   for (std::size_t l = 0; l < found.size(); ++l) {
-    const double least = least_value(levels.level(l), found[l]);
+    double least = least_value(levels.level(l), found[l]);
+    for (const WallCorner& corner :
+         wall_corners(scene, levels.level(l), [&](Index k) { return found[l].q[index_of(k)]; }))
+      least = std::min(least, corner.p);
     for (double& p : found[l].q) p -= least;
   }
   return found;
@@ -219,7 +223,8 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
                                    " cells; give more cells, or leave it out");
       continue;
     }
-    std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
+    std::vector<CutSolution> found =
+        closed == Closed::balanced ? solve_balanced(scene, levels) : levels.solve(true);
     const CutCells& finest = levels.finest();
     const auto value = [&](Index k) {
       return finest.grid.is_unknown(k) ? found[0].q[index_of(k)] : finest.given[index_of(k)];
@@ -278,7 +283,7 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
       solution.grid_bound = bound;
   require_no_divergence_in_liquid(scene, cells, found.front());
   solution.volume = content(scene, cells);
-  solution.parted_walls = parted_walls(scene, cells, found.front(), corners);
+  solution.parted_walls = parted_walls(scene, cells, found.front(), corners, solution.largest);
   solution.empty_parts = empty_parts(scene, cells);
   const auto pressure = std::make_shared<const GridPressure>(levels.take_finest(), found.front().q);
   const auto edge = std::make_shared<const CavityEdge>(pressure->cells(), found.front());

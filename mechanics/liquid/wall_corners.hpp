@@ -7,7 +7,8 @@
 
 namespace mechanics::liquid {
 
-/// A vertex of a polygon at which two walls meet at an inner angle below π, and p there.
+/// Where two walls meet at an inner angle below π, at a vertex of a polygon or where two inequalities in two
+/// coordinates are equalities, and p there.
 struct WallCorner {
   Point at{};
   double p = 0;

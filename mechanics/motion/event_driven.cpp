@@ -27,10 +27,6 @@ constexpr int most_halvings = 200;
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
-/// So many steps without an impact, of so few roundings of the time since the start each, lead nowhere.
-constexpr long steps_looked_at = 1000;
-constexpr double roundings_of_step = 4;
-
 }  // namespace
 
 Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, MotionOptions chosen)
@@ -41,8 +37,8 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
   zeros_of_switch_.assign(expansion_.switches(), 0);
-  branches_behind_.assign(expansion_.switches(), 0.0);
-  left_of_zero_.assign(expansion_.switches(), 0.0);
+  for (auto* each : {&branches_behind_, &terms_behind_, &left_of_zero_, &width_of_zero_})
+    each->assign(expansion_.switches(), 0.0);
   is_crossed_.assign(expansion_.switches(), true);
   rounding_of_zero_.resize(expansion_.switches());
   is_weak_.assign(m, false);
@@ -123,15 +119,7 @@ bool Motion::EventDriven::advance(double until) {
   if (status == MotionStatus::done && events_at_once_ > most_events_at_once * (m + 1))
     stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant" +
          advice_on_kinks());
-  if (record.impacts != impacts_at_mark_) mark_ = -1;
-  if (mark_ < 0 || record.steps - mark_ >= steps_looked_at) {
-    const double shortest = static_cast<double>(steps_looked_at) * roundings_of_step * epsilon * since_start_;
-    if (status == MotionStatus::done && mark_ >= 0 && since_start_ - time_of_mark_ < shortest)
-      stop("at t = " + number_text(state.t) +
-           ": steps shorter than the digits of t do not get past; a derivative has no bound there, as that "
-           "of asin, acos and sqrt at the end of their range; write the expressions without it");
-    mark_ = record.steps, impacts_at_mark_ = record.impacts, time_of_mark_ = since_start_;
-  }
+  look_for_progress();
   if (status != MotionStatus::done && next.t != state.t) forget_right_limits();
   return status == MotionStatus::done || !events.empty() || goes_on || low_ > low_before;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "mechanics/motion/accumulation.hpp"
@@ -38,6 +39,7 @@ class Motion::EventDriven final : public Motion::Course {
  private:
   void begin(const State& at);
   void take_step(double until);
+  void look_for_progress();
   double rounding_of_time(double ahead) const;
   std::vector<Zero> closing_at_once();
   std::vector<Zero> closing_at_the_end();
@@ -89,14 +91,14 @@ class Motion::EventDriven final : public Motion::Course {
   /// Appends to `at_zero` what is at 0 with the branches of the others.
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   std::vector<Index>& at_zero);
-  double sign_ahead(std::size_t k);
+  double sign_ahead(std::size_t k, std::vector<double> by_rounding);
   bool has_left_its_branch(std::size_t k, double tau);
   double terms_of_argument(std::size_t k, double tau) const;
   bool is_at_zero_of_arc(std::size_t k) const;
   double left_of_argument(std::size_t k, double tau);
   bool has_left_zero(std::size_t k, double tau);
   std::vector<Zero> left_behind();
-  HeldRows::Answer acceleration_off_zero(double tau);
+  std::optional<HeldRows::Answer> acceleration_off_zero(double tau);
   void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
   void take_sides_ahead(Contacts& found, const std::vector<Index>& switches);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
@@ -125,6 +127,8 @@ class Motion::EventDriven final : public Motion::Course {
   /// Sums such as T - V and p, and the values that a series tells, lose digits; as long as half of them are
   /// left, a difference of more is a jump.
   static constexpr double half_the_digits = 0x1p-26;
+  /// Of what stays 0 the rounding of so many orders counts, the value and two derivatives.
+  static constexpr int orders_at_zero = 3;
   /// A contact without a multiplier pulls beyond so many times what rounding made of that as the arc began.
   static constexpr double room_of_weak = 10;
   static constexpr double not_begun = std::numeric_limits<double>::quiet_NaN();
@@ -139,7 +143,9 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<double> branches_behind_;                              // by switch, before the event
   std::vector<bool> is_crossed_;      // by switch: its argument comes to 0 in the event, and does not go back
-  std::vector<double> left_of_zero_;  // by switch: what rounding may have made of one that stays 0, so far
+  std::vector<double> terms_behind_;  // by switch: what its argument was the sum of as the arc behind ended
+  std::vector<double> width_of_zero_;  // by switch, on the branches tried last: so far it counts as 0
+  std::vector<double> left_of_zero_;   // by switch: what rounding may have made of one that stays 0, so far
   std::vector<std::vector<double>> rounding_of_zero_;  // and makes of it on the next arc, by order
   std::vector<ContactQuestion::Unloaded> unloaded_;    // in the event at hand
   std::vector<bool> is_weak_;                          // held without a multiplier
@@ -160,6 +166,7 @@ class Motion::EventDriven final : public Motion::Course {
   long events_at_once_ = 0, kinks_at_once_ = 0;
   long mark_ = -1, impacts_at_mark_ = 0;  // steps, impacts and time where progress was looked at last
   double time_of_mark_ = 0;
+  double time_of_crowd_ = 0;  // when as many steps had been taken as are looked at for a crowd
   double until_ = std::numeric_limits<double>::infinity();  // not asked for yet
   /// At an event, on the branches before it, with the velocity after it.
   struct Behind {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mechanics/data_radii.hpp"
 #include "mechanics/motion/event_driven.hpp"
@@ -36,7 +37,7 @@ bool is_rising(const std::vector<double>& sizes, double h) {
 }
 
 /// What leaves 0 on a step ends it where its own accelerations are seen no more, but no step is halved more
-/// often for it: what is left of the step then is less than its tolerance.
+/// often for it: it is a part of 1e-12 of the first one then.
 constexpr int halvings_until_left = 40;
 
 /// An impact within so many roundings of the end of the motion is at its end.
@@ -61,10 +62,11 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   double pull = 0;
   try {
     expansion_.set(there_);
-    const HeldRows::Answer answer =
+    const std::optional<HeldRows::Answer> answer =
         may_leave_zero ? acceleration_off_zero(at) : expansion_.acceleration(persist_);
-    q2_ = answer.x;
-    if (may_leave_zero) pull = pull_of_weak(answer.lambda);
+    if (!answer) return false;
+    q2_ = answer->x;
+    if (may_leave_zero) pull = pull_of_weak(answer->lambda);
   } catch (const convex::InvalidInput& error) {
     obstacle_ = error.what();
     return false;
@@ -81,6 +83,7 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   q2_ -= expected_q2_;
   const double defect = (expansion_.norm(q2_) + pull) * tau * tau;
   const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
+  if (!std::isfinite(defect + rounding)) return false;
   const double orders = is_cut_ ? 1 : static_cast<double>(next.q.cols());
   if (defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding) return true;
   // Forces that cancel have the rounding of their terms.
@@ -155,6 +158,16 @@ void Motion::EventDriven::project() {
 }
 
 void Motion::EventDriven::fill_next() {
+  is_cut_ = expansion_.cut() > 0;
+  const auto is_still = [&] {
+    for (Index i = 0; i < expansion_.coordinates(); ++i)
+      if (expansion_.position(i)[1] != 0 || expansion_.position(i)[2] != 0) return false;
+    return true;
+  };
+  const auto pushes = [&](Index a) { return expansion_.multiplier(a)[0] > 0; };
+  // From a rest that nothing holds there may be several motions, as those of x'' = √x.
+  if (is_cut_ && is_still() && std::none_of(persist_.begin(), persist_.end(), pushes))
+    expansion_.refuse_cut();
   const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
   next.t = state.t;
   next.q.resize(n, last + 1);
@@ -169,15 +182,14 @@ void Motion::EventDriven::fill_next() {
     copy(next.f, a, expansion_.constraint(a));
   }
   next.persist = persist_;
-  // A step of few orders leads to where the series goes on; or the motion ends, or, from rest, may not be the
-  // only one, as that of x'' = √x.
-  const bool was_cut = is_cut_;
-  is_cut_ = expansion_.cut() > 0;
-  if (is_cut_ && (was_cut || next.q.middleCols(1, 2).isZero(0))) expansion_.refuse_cut();
   acceleration = 2 * next.q.col(2);
   multipliers = next.lambda.col(0);
+  std::vector<Index> at_zero;
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    if (expansion_.branch(k) == 0) rounding_of_zero_[k] = expansion_.rounding_of_switch(k);
+    if (expansion_.branch(k) == 0) at_zero.push_back(static_cast<Index>(k));
+  auto roundings = expansion_.rounding_of_switches(at_zero, orders_at_zero);
+  for (std::size_t i = 0; i < at_zero.size(); ++i)
+    rounding_of_zero_[static_cast<std::size_t>(at_zero[i])] = std::move(roundings[i]);
   const double tolerance = tolerance_of_step(options.tolerance);
   expansion_.sizes(sizes_);
   step_ahead_ = step_length(sizes_, tolerance);

@@ -65,15 +65,22 @@ void Motion::EventDriven::take_sides_ahead(Contacts& found, const std::vector<In
   } catch (const convex::InvalidInput&) {  // undefined on these branches, which need not be those ahead
     return;
   }
+  const auto roundings = expansion_.rounding_of_switches(switches, 2);
   for (std::size_t i = 0; i < switches.size(); ++i) {
     const auto k = static_cast<std::size_t>(switches[i]);
     const double speed = expansion_.switch_argument(k)[1];
-    if (!expansion_.depends_on_velocity(k) && std::abs(speed) > expansion_.rounding_of_switch(k)[1])
+    if (!expansion_.depends_on_velocity(k) && std::abs(speed) > roundings[i][1])
       sides[i] = std::copysign(1.0, speed);
   }
   for (std::size_t i = 0; i < switches.size(); ++i)
-    expansion_.branch(static_cast<std::size_t>(switches[i])) = sides[i];
-  expansion_.set(state);
+    std::swap(expansion_.branch(static_cast<std::size_t>(switches[i])), sides[i]);
+  try {
+    expansion_.set(state);
+  } catch (const convex::InvalidInput&) {
+    for (std::size_t i = 0; i < switches.size(); ++i)
+      expansion_.branch(static_cast<std::size_t>(switches[i])) = sides[i];
+    return expansion_.set(state);
+  }
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     double& df = found.rates.df[a];
     const double least = options.contact_tolerance[a] * found.rates.df_scale[a];

@@ -14,6 +14,15 @@ constexpr double roundings_of_bounce = 64;
 constexpr long most_impacts_followed = 100'000;
 constexpr double known_remainder = 0.01;
 
+/// So many steps without an impact, of so few roundings of the time since the start each, lead nowhere.
+constexpr long steps_looked_at = 1000;
+constexpr double roundings_of_step = 4;
+
+/// So many steps within such a part of the time since the start come to no end: a body that rattles in a
+/// groove by what rounding leaves of its velocity.
+constexpr long steps_crowded = 100'000;
+constexpr double part_of_crowd = 1e-7;
+
 }  // namespace
 
 /// Whether contacts that exclude each other at an impact do so by no more than rounding of f tells: at speeds
@@ -79,6 +88,25 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
     if (std::abs(end - remaining) <= alike * remaining) found.push_back(a);
   }
   return found;
+}
+
+/// Stops where steps, or events, lead nowhere.
+void Motion::EventDriven::look_for_progress() {
+  if (record.impacts != impacts_at_mark_) mark_ = -1;
+  if (mark_ < 0 || record.steps - mark_ >= steps_looked_at) {
+    const double shortest = static_cast<double>(steps_looked_at) * roundings_of_step * epsilon * since_start_;
+    if (status == MotionStatus::done && mark_ >= 0 && since_start_ - time_of_mark_ < shortest)
+      stop("at t = " + number_text(state.t) +
+           ": steps shorter than the digits of t do not get past; a derivative has no bound there, as that "
+           "of asin, acos and sqrt at the end of their range; write the expressions without it");
+    mark_ = record.steps, impacts_at_mark_ = record.impacts, time_of_mark_ = since_start_;
+  }
+  if (record.steps % steps_crowded != 0) return;
+  if (status == MotionStatus::done && since_start_ - time_of_crowd_ < part_of_crowd * since_start_)
+    stop("at t = " + number_text(state.t) + ": " + std::to_string(steps_crowded) +
+         " events have come within " + number_text(since_start_ - time_of_crowd_) + ", and do not end" +
+         advice_on_kinks());
+  time_of_crowd_ = since_start_;
 }
 
 }  // namespace mechanics::inline motions

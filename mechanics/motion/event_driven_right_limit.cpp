@@ -50,8 +50,7 @@ bool Motion::EventDriven::is_at_zero_of_arc(std::size_t k) const {
 /// long.
 double Motion::EventDriven::left_of_argument(std::size_t k, double tau) {
   double left = 0;
-  for (std::size_t j = std::min<std::size_t>(3, rounding_of_zero_[k].size()); j-- > 1;)
-    left = (left + rounding_of_zero_[k][j]) * tau;
+  for (std::size_t j = rounding_of_zero_[k].size(); j-- > 1;) left = (left + rounding_of_zero_[k][j]) * tau;
   return left_of_zero_[k] + left;
 }
 
@@ -62,16 +61,21 @@ bool Motion::EventDriven::has_left_zero(std::size_t k, double tau) {
 }
 
 /// q'' and the multipliers at a time of the next arc, by the text: on the branches that the arguments which
-/// have left 0 take by then.
-HeldRows::Answer Motion::EventDriven::acceleration_off_zero(double tau) {
+/// have left 0 take by then. Nothing where they are not defined there.
+std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(double tau) {
   std::vector<std::size_t> left;
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
     if (has_left_zero(k, tau)) left.push_back(k);
   if (left.empty()) return expansion_.acceleration(persist_);
-  for (const std::size_t k : left)
-    expansion_.branch(k) = std::copysign(1.0, expansion_.switch_argument(k)[0]);
-  expansion_.set(there_);
-  HeldRows::Answer answer = expansion_.acceleration(persist_);
+  std::optional<HeldRows::Answer> answer;
+  try {
+    for (const std::size_t k : left)
+      expansion_.branch(k) = std::copysign(1.0, expansion_.switch_argument(k)[0]);
+    expansion_.set(there_);
+    answer = expansion_.acceleration(persist_);
+  } catch (const convex::InvalidInput& error) {
+    obstacle_ = error.what();
+  }
   for (const std::size_t k : left) expansion_.branch(k) = 0;
   expansion_.set(there_);
   return answer;
@@ -85,7 +89,11 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
     if (expansion_.branch(k) != 0) continue;
     const bool has_left = has_left_zero(k, done.length);
     left_of_zero_[k] = left_of_argument(k, done.length);
-    if (has_left || (left_of_zero_[k] == 0 && sign_ahead(k) != 0))
+    const auto goes_on = [&] {
+      return sign_ahead(
+                 k, expansion_.rounding_of_switches({static_cast<Index>(k)}, expansion_.order() - 1)[0]) != 0;
+    };
+    if (has_left || (left_of_zero_[k] == 0 && goes_on()))
       found.push_back({Zero::Of::branch, static_cast<Index>(k), done.length});
   }
   for (const Index a : persist_) {
@@ -106,37 +114,35 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
 }
 
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
-/// there is none. Each order has its own scale: derivatives of a fast motion grow with their order. Where a
-/// later term comes first to what is left of the argument at 0, the earlier ones are left by that too: those
-/// of a double zero, which is met a little beside.
-double Motion::EventDriven::sign_ahead(std::size_t k) {
+/// there is none. Each order has its own scale: derivatives of a fast motion grow with their order. A double
+/// zero is met a little beside: of its terms that one counts which comes first to what is left of it there.
+double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rounding) {
   const std::span<const double> c = expansion_.switch_argument(k);
-  std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
   // A velocity that comes to 0 has the rounding of what it was.
   if (record.steps > 0 && done.length > 0 && by_rounding.size() > 1)
-    by_rounding[1] = std::max(
-        by_rounding[1], roundings_of_series * epsilon * terms_of_argument(k, done.length) / done.length);
+    by_rounding[1] = std::max(by_rounding[1], roundings_of_series * epsilon * terms_behind_[k] / done.length);
   // One that contains others at 0 may have jumped off it with them: it is farther than the time of the event
   // is uncertain.
   const double moment = record.steps == 0 ? 0 : rounding_of_time(0);
   double terms = 0;
   for (std::size_t i = c.size(); i-- > 1;) terms = (terms + std::abs(c[i])) * moment;
   const double farthest = roundings_at_zero * (by_rounding[0] + terms);
-  left_of_zero_[k] = std::max(left_of_zero_[k], farthest);
-  std::size_t first = std::abs(c[0]) > left_of_zero_[k] ? 0 : 1;
+  width_of_zero_[k] = std::max(left_of_zero_[k], farthest);
+  std::size_t first = std::abs(c[0]) > width_of_zero_[k] ? 0 : 1;
   while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) {
     if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
     ++first;
   }
-  if (first > 0 && first < c.size() && farthest > 0) {
+  const bool is_double = first > 1 || (first == 1 && !is_crossed_[k]);
+  if (is_double && record.steps > 0 && first < c.size() && farthest > 0) {
     const auto width = [&](std::size_t j) {
       return std::pow(farthest / std::abs(c[j]), 1 / static_cast<double>(j));
     };
     for (std::size_t j = first + 1; j < c.size(); ++j)
       if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;
     // What is left of a rest moves on by itself, and stays within that for as long as the arc behind was.
-    const bool is_left = c[0] != 0 || (c.size() > 1 && c[1] != 0);
-    if (is_left && record.steps > 0 && width(first) > done.length && done.length > 0) first = c.size();
+    const bool is_left = c[0] != 0 || c[1] != 0;
+    if (is_left && first > 1 && done.length > 0 && width(first) > done.length) first = c.size();
   }
   zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
   return first < c.size() ? std::copysign(1.0, c[first]) : 0;
@@ -153,7 +159,7 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
     const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
     // Where rounding is more than half the digits of what it was on the arc, as near a pole, it is no sign of
     // 0.
-    if (is_at_zero && (was_off || rounding <= half_the_digits * terms_of_argument(k, done.length)))
+    if (is_at_zero && (was_off || rounding <= half_the_digits * terms_behind_[k]))
       at_zero.push_back(static_cast<Index>(k));
     if (branch == expansion_.branch(k)) continue;
     expansion_.branch(k) = branch;
@@ -197,9 +203,10 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
       answer = expansion_.expand(question);
       if (!answer->excluding.empty()) return Found::excluded;
       Found found = Found::itself;
-      for (const Index which : at_zero) {
-        const auto k = static_cast<std::size_t>(which);
-        const double sign = ahead[k] = sign_ahead(k);
+      const auto roundings = expansion_.rounding_of_switches(at_zero, expansion_.order() - 1);
+      for (std::size_t i = 0; i < at_zero.size(); ++i) {
+        const auto k = static_cast<std::size_t>(at_zero[i]);
+        const double sign = ahead[k] = sign_ahead(k, roundings[i]);
         if (sign == 0) may_stay[k] = true;
         if (sign != expansion_.branch(k))
           found = sign == 0 && found != Found::nothing ? Found::beside : Found::nothing;
@@ -249,6 +256,8 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   }
   if (best == Found::nothing) return std::nullopt;
   if (best != Found::itself) look(of_best);
+  for (const Index which : at_zero)
+    left_of_zero_[static_cast<std::size_t>(which)] = width_of_zero_[static_cast<std::size_t>(which)];
   // What jumped onto 0 on other branches only is not at 0 on these.
   const auto is_off = [&](Index which) {
     const auto k = static_cast<std::size_t>(which);

@@ -289,7 +289,7 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   for (std::size_t i = 0; i < equations_.program.coordinates(); ++i) {
     const Slot q = equations_.program.coordinate(i), v = equations_.program.velocity(i);
     if (cut_ > 0)
-      series_.end(q, cut_ - 1, series_.at_order(q));
+      series_.end(q, cut_ - 1, std::isfinite(series_.at_order(q)) ? series_.at_order(q) : 0);
     else
       series_.end(q, order_, series_.at_order(v) / order_);
   }

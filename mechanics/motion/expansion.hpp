@@ -145,8 +145,9 @@ class Expansion {
   Vector rounding_of_multipliers(const std::vector<Index>& held);
   /// And ||q''||_A at a state, of the terms of the forces, after `acceleration`.
   double rounding_of_acceleration() { return rounding(0) * norm(magnitudes({}, 0).velocity); }
-  /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
-  std::vector<double> rounding_of_switch(std::size_t k);
+  /// Up to here rounding may have made the coefficients of these arguments, of so many orders, after
+  /// `expand`.
+  std::vector<std::vector<double>> rounding_of_switches(const std::vector<Index>& which, int orders);
   /// The same of the argument itself, at a state.
   double rounding_of_argument(std::size_t k);
   /// Whether an atan2 is in that argument, which may jump then.

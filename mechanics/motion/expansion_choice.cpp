@@ -18,6 +18,9 @@ constexpr double roundings_of_state = 1 << 10;
 /// the count of roundings is an estimate.
 constexpr double factor_in_doubt = 100;
 
+/// Where a derivative has no bound its magnitude has none, and nothing is known of what rounding makes of it.
+double if_finite(double magnitude) { return std::isfinite(magnitude) ? magnitude : 0; }
+
 bool is_in_doubt(double number, double by_rounding) {
   return number > by_rounding && number < factor_in_doubt * by_rounding;
 }
@@ -70,6 +73,8 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
     of.rates[static_cast<Index>(a)] = magnitude_.at(equations_.rate[index(constraints[a])], k + 1);
   for (std::size_t i = 0; i < n; ++i)
     magnitude_.at(program.velocity(i), k + 1) = of.velocity[static_cast<Index>(i)];
+  of.velocity = of.velocity.unaryExpr(&if_finite);
+  of.rates = of.rates.unaryExpr(&if_finite);
   return of;
 }
 
@@ -86,7 +91,7 @@ double Expansion::rounding(int k) const {
 double Expansion::magnitude_of(expression::Slot series) {
   if (!magnitude_is_begun_) magnitude_.begin();
   magnitude_is_begun_ = true;
-  return magnitude_.at(series, 0);
+  return if_finite(magnitude_.at(series, 0));
 }
 
 bool Expansion::has_lost_gradient(Index a) {
@@ -113,14 +118,16 @@ Vector Expansion::rounding_of_multipliers(const std::vector<Index>& held) {
   return by_rounding;
 }
 
-std::vector<double> Expansion::rounding_of_switch(std::size_t k) {
-  std::vector<double> of_order(static_cast<std::size_t>(order_ - 1));
-  const Slot argument = steps_.switches[k].argument;
-  for (int j = 0; j <= order_ - 2; ++j) {
+std::vector<std::vector<double>> Expansion::rounding_of_switches(const std::vector<Index>& which,
+                                                                 int orders) {
+  std::vector<std::vector<double>> found(which.size());
+  for (int j = 0; j < orders && !which.empty(); ++j) {
     magnitudes({}, j);
-    of_order[static_cast<std::size_t>(j)] = rounding(j) * magnitude_.at(argument, j);
+    for (std::size_t i = 0; i < which.size(); ++i)
+      found[i].push_back(rounding(j) *
+                         if_finite(magnitude_.at(steps_.switches[index(which[i])].argument, j)));
   }
-  return of_order;
+  return found;
 }
 
 double Expansion::rounding_of_argument(std::size_t k) {

@@ -275,3 +275,15 @@ TEST_CASE("p is largest at a corner of walls, between the nodes of a grid") {
   CHECK(found["pressure"]["max"].get<double>() == doctest::Approx(12000 - 9810 * 0.13 + 6000).epsilon(1e-9));
   CHECK(found["pressure"]["at"]["x"].get<double>() == doctest::Approx(3));
 }
+
+TEST_CASE("a closed tank at rest parts nowhere, and its least pressure is at a corner of its walls") {
+  const Folder folder;
+  const std::string file = folder.write(
+      "closed.toml",
+      "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = "
+      "\"polygon(vertices=[[0,0],[3,0],[2.9,0.61],[0.2,1.03]])\"\ndensity = "
+      "1000\nforce = [\"0\", \"-9.81\"]\nwalls = { rest = { where = \"true\", acceleration = \"0\" } }\n");
+  const OnsetJson found = OnsetJson::parse(run({"solve", "--json", file}).out);
+  CHECK(found["parted_walls"].empty());
+  CHECK(found["pressure"]["max"].get<double>() == doctest::Approx(9810 * 1.03).epsilon(1e-6));
+}

@@ -134,7 +134,10 @@ bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   Matrix N(k + d, d);
   N.topRows(k) = -rows.T;
   N.bottomRows(d).setIdentity();
-  // With no entry of T large the condition of NᵀN is no obstacle.
+  // With no entry of T large the condition of NᵀN is no obstacle; where the change of basis did not come to
+  // that, nothing is known of the multipliers.
+  constexpr double large = 0x1p20;
+  if (rows.T.size() > 0 && !(rows.T.cwiseAbs().maxCoeff() <= large)) return false;
   std::vector<Index> signed_rows;
   for (Index j = 0; j < k + d; ++j)
     if (!is_free[at(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);

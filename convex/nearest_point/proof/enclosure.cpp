@@ -200,15 +200,17 @@ bool is_kept_exactly(const HeldRows& held) {
   return slacks_if_kept(problem, point.q, held.rows, others).has_value();
 }
 
-/// The bound from the working set, when they stand alone and push.
+/// The bound from the working set, when they stand alone and push; idle rows are let go so many times.
 std::optional<double> bound_from(const NearestPointProblem& problem, const RadiiOf& radii,
-                                 const Preconditioned& P, const Solution& solution, const Guess& guess) {
+                                 const Preconditioned& P, const Solution& solution, const Guess& guess,
+                                 int rounds = 4) {
   const auto held = hold(problem, radii, P, guess.rows, solution.q, guess.lambda);
   if (!held) return std::nullopt;
   // Rows without a multiplier, for all that doubles tell, need not be held.
   const std::vector<Index> pushing = without_idle_rows(*held);
   if (pushing.size() < held->rows.size())
-    return bound_from(problem, radii, P, solution, {pushing, guess.lambda});
+    return rounds > 0 ? bound_from(problem, radii, P, solution, {pushing, guess.lambda}, rounds - 1)
+                      : std::nullopt;
   if (!radii.any() && is_kept_exactly(*held)) return unbalanced_above(*held);
   if (!multipliers_are_positive(*held)) return std::nullopt;
   const auto shift = shift_of_open_rows(*held);

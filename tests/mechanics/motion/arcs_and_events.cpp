@@ -188,6 +188,7 @@ TEST_CASE(
   };
   // ½ v² - ⅔ x^1.5 = ½ by the energy; the rest of x'' = √x is one of many motions from there.
   const Followed moving = along("sqrt(x)", 1);
+  CHECK(moving.motion.status() == MotionStatus::done);
   const double x = moving.end().q[0], v = moving.end().v[0];
   CHECK(v * v / 2 - 2 * std::pow(x, 1.5) / 3 == doctest::Approx(0.5).epsilon(1e-10));
   CHECK_THROWS_WITH_AS(along("sqrt(x)", 0), doctest::Contains("order 3 is not finite"), convex::InvalidInput);
