@@ -1,5 +1,6 @@
 #include "mechanics/liquid/largest_pressure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mechanics/liquid/wall_corners.hpp"
@@ -27,7 +28,14 @@ LargestPressure largest_pressure(const LiquidScene& scene, const CutCells& cells
     const BoundaryPart* part = scene.part_at(vertex);
     if (part != nullptr && part->is_free) offer(scene.free_pressure(*part, vertex), vertex);
   }
-  for (const WallCorner& corner : wall_corners(scene, cells, value)) offer(corner.p, corner.at);
+  const std::vector<WallCorner> corners = wall_corners(scene, cells, value);
+  for (const WallCorner& corner : corners) offer(corner.p, corner.at);
+  // Beside a corner the place on a wall that a node tells of may lie beyond it.
+  const auto is_at_corner = [&](const Point& x) {
+    return std::any_of(corners.begin(), corners.end(), [&](const WallCorner& corner) {
+      return std::abs(x[0] - corner.at[0]) < cells.step[0] && std::abs(x[1] - corner.at[1]) < cells.step[1];
+    });
+  };
   // Nodes beyond a wall stand for what their cells have of the domain; p there is none of the domain's.
   std::vector<bool> near_wall(slot_of(grid.size()));
   for (const WallPiece& wall : cells.walls) {
@@ -35,7 +43,7 @@ LargestPressure largest_pressure(const LiquidScene& scene, const CutCells& cells
     for (std::size_t axis = 0; axis < grid.dimension; ++axis)
       for (const Index beside : {wall.point - grid.stride(axis), wall.point + grid.stride(axis)})
         if (beside >= 0 && beside < grid.size()) near_wall[slot_of(beside)] = true;
-    if (wall.pendant < 0) continue;
+    if (wall.pendant < 0 || is_at_corner(wall.at)) continue;
     // On the boundary itself, of which a piece is a chord, p has gone on by so much of the wall's flux.
     const convex::Pendant& pendant = grid.pendants[slot_of(wall.pendant)];
     const double behind = value(pendant.point), away = wall.area / pendant.conductance;

@@ -117,6 +117,7 @@ class Motion::EventDriven final : public Motion::Course {
   void continue_arc();
   void project();
   void fill_next();
+  bool may_leave_rest();
   void close_together(std::vector<Zero>& zeros) const;
   void look_for_penetration();
   /// Where no arc follows there is neither q'' nor a multiplier.

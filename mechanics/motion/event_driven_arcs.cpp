@@ -157,17 +157,38 @@ void Motion::EventDriven::project() {
        std::string(advice_on_singular_states));
 }
 
+/// Whether a coordinate at rest is pushed away from where it is by more than in proportion to the distance,
+/// as by √x: then several motions lead from there (Peano 1890).
+bool Motion::EventDriven::may_leave_rest() {
+  constexpr double far = 1e-6, near = 1e-12, steeper = 10, least_push = 1e-9;
+  const double size = std::max(expansion_.force_norm(), 1.0);
+  bool may_leave = false;
+  for (Index i = 0; i < expansion_.coordinates() && !may_leave; ++i) {
+    if (expansion_.position(i)[1] != 0 || expansion_.position(i)[2] != 0) continue;
+    for (const bool of_velocity : {false, true})
+      for (const double side : {-1.0, 1.0}) {
+        const auto push = [&](double distance) {
+          State beside = state;
+          (of_velocity ? beside.v : beside.q)[i] += side * distance * std::max(1.0, std::abs(state.q[i]));
+          try {
+            expansion_.set(beside);
+            return std::abs(expansion_.acceleration(persist_).x[i]);
+          } catch (const convex::InvalidInput&) {  // not defined on that side
+            return 0.0;
+          }
+        };
+        const double by_near = push(near);
+        may_leave = may_leave || (by_near > least_push * size && by_near / near > steeper * push(far) / far);
+      }
+    expansion_.set(state);
+    expansion_.expand({persist_, {}});
+  }
+  return may_leave;
+}
+
 void Motion::EventDriven::fill_next() {
   is_cut_ = expansion_.cut() > 0;
-  const auto is_still = [&] {
-    for (Index i = 0; i < expansion_.coordinates(); ++i)
-      if (expansion_.position(i)[1] != 0 || expansion_.position(i)[2] != 0) return false;
-    return true;
-  };
-  const auto pushes = [&](Index a) { return expansion_.multiplier(a)[0] > 0; };
-  // From a rest that nothing holds there may be several motions, as those of x'' = √x.
-  if (is_cut_ && is_still() && std::none_of(persist_.begin(), persist_.end(), pushes))
-    expansion_.refuse_cut();
+  if (is_cut_ && may_leave_rest()) expansion_.refuse_cut();
   const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
   next.t = state.t;
   next.q.resize(n, last + 1);

@@ -287,3 +287,25 @@ TEST_CASE("a closed tank at rest parts nowhere, and its least pressure is at a c
   CHECK(found["parted_walls"].empty());
   CHECK(found["pressure"]["max"].get<double>() == doctest::Approx(9810 * 1.03).epsilon(1e-6));
 }
+
+TEST_CASE("the largest pressure beside a corner of walls is that of the corner") {
+  // A hexagon made so that p = c + 0.727 x + 0.869 y; a node beside the corner told of a place beyond it.
+  const Folder folder;
+  const std::string file = folder.write("hexagon.toml", R"toml([liquid]
+coordinates = ["x", "y"]
+domain = "polygon(vertices=[[0.5535, 0.7859], [-0.372, 0.7472], [-0.9803, 0.0535], [-0.5002, -0.7084], [0.4182, -0.9664], [1.0143, -0.058]])"
+density = 1
+force = ["-0.232", "0.691"]
+[liquid.free]
+top = { where = "-0.2704541354525622*x + -0.9627328604636943*y >= 0.8172811169058527", pressure = "1.029245 + 0.727*x + 0.869*y" }
+[liquid.walls]
+w0 = { where = "-0.041778725619634846*x + 0.9991268878804129*y >= 0.7620892965547487", acceleration = "-0.13777878817348366" }
+w1 = { where = "-0.7518712770924577*x + 0.6593099291557475*y >= 0.7723324941435687", acceleration = "0.6036873873419438" }
+w2 = { where = "-0.84603993122593*x + -0.5331195314103806*y >= 0.8008510496503238", acceleration = "0.9062475706367146" }
+w4 = { where = "0.8360637421025547*x + -0.5486323168949062*y >= 0.8798401279945258", acceleration = "-0.7041285762690566" }
+w5 = { where = "0.8776808544481399*x + 0.47924557142991214*y >= 0.8624354475238134", acceleration = "-0.9270016511302904" }
+)toml");
+  const OnsetJson found = OnsetJson::parse(run({"solve", "--json", file}).out);
+  const double at_corner = 1.029245 + 0.727 * 0.5535 + 0.869 * 0.7859;
+  CHECK(std::abs(found["pressure"]["max"].get<double>() - at_corner) <= 1e-8);
+}

@@ -192,4 +192,31 @@ TEST_CASE(
   const double x = moving.end().q[0], v = moving.end().v[0];
   CHECK(v * v / 2 - 2 * std::pow(x, 1.5) / 3 == doctest::Approx(0.5).epsilon(1e-10));
   CHECK_THROWS_WITH_AS(along("sqrt(x)", 0), doctest::Contains("order 3 is not finite"), convex::InvalidInput);
+  CHECK_THROWS_WITH_AS(followed({{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"x", "sqrt(x)"}, {"y", "1"}}, {}},
+                                state({0, 0}, {0, 0}), 1),
+                       doctest::Contains("order 3 is not finite"), convex::InvalidInput);
+  CHECK(along("-x'*hypot(x', 0)", 0).end().q[0] == 0);  // drag leaves a rest alone
+}
+
+TEST_CASE("branches at 0 go on by themselves where another force has no second derivative at the start") {
+  // y' = 1 - e^(-t) by the drag of y alone; a body hung from rest on a spring, and one thrown up, by DOP853.
+  struct Case {
+    const char *x, *y;
+    mechanics::State start;
+    double until, q;
+    int which;
+  };
+  const Case cases[] = {
+      {"1 - hypot(x', 0)*x'", "1 - max(y', 0)", state({0, 0}, {0, 0}), 3, 2 + std::exp(-3), 1},
+      {"-9.81 - hypot(x', y')*x' + 50*max(-x, 0)", "-hypot(x', y')*y'", state({0, 0}, {0, 0}), 4,
+       -0.254549543285, 0},
+      {"-9.81 - hypot(x', y')*x' - sign(x')", "-hypot(x', y')*y'", state({0, 0}, {5, 0}), 2, -3.75140449696,
+       0}};
+  for (const Case& one : cases) {
+    CAPTURE(std::string(one.x));
+    const Followed motion = followed(
+        {{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"x", one.x}, {"y", one.y}}, {}}, one.start, one.until);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[one.which] == doctest::Approx(one.q).epsilon(1e-9));
+  }
 }
