@@ -172,7 +172,7 @@ Residuals residuals(const NearestPointProblem& problem, const Solution& answer, 
     if ((!is_loaded && rest >= 0 && !is_two_sided) || rest == 0) continue;
     double length = known.length.size() > 0 ? known.length[a] : 0;
     if (are_lengths_at_hand) length = length_at_hand(a);
-    if (length > 0) {
+    if (has_squares(length)) {
       found.add(s[a], length, lambda[a], rest, is_two_sided);
     } else {
       unknown.push_back(a);
