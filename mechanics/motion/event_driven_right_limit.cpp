@@ -85,17 +85,21 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(doubl
 /// multiplier that would have to pull. Of an argument that no rounding moves the derivatives tell it too.
 std::vector<Zero> Motion::EventDriven::left_behind() {
   std::vector<Zero> found;
+  std::vector<Index> unmoved;
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     if (expansion_.branch(k) != 0) continue;
+    const auto which = static_cast<Index>(k);
     const bool has_left = has_left_zero(k, done.length);
     left_of_zero_[k] = left_of_argument(k, done.length);
-    const auto goes_on = [&] {
-      return sign_ahead(
-                 k, expansion_.rounding_of_switches({static_cast<Index>(k)}, expansion_.order() - 1)[0]) != 0;
-    };
-    if (has_left || (left_of_zero_[k] == 0 && goes_on()))
-      found.push_back({Zero::Of::branch, static_cast<Index>(k), done.length});
+    if (has_left)
+      found.push_back({Zero::Of::branch, which, done.length});
+    else if (left_of_zero_[k] == 0)
+      unmoved.push_back(which);
   }
+  const auto roundings = expansion_.rounding_of_switches(unmoved, expansion_.order() - 1);
+  for (std::size_t i = 0; i < unmoved.size(); ++i)
+    if (sign_ahead(static_cast<std::size_t>(unmoved[i]), roundings[i]) != 0)
+      found.push_back({Zero::Of::branch, unmoved[i], done.length});
   for (const Index a : persist_) {
     const auto k = static_cast<std::size_t>(a);
     if (is_weak_[k] && expansion_.multiplier(a)[0] < -room_of_weak * least_multiplier_[k])
