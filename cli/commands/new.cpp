@@ -57,8 +57,7 @@ Exit write_starting_file(const NewOptions& options) {
       fmt::print("{}", file.text);
       return Exit::solved;
     }
-    const std::size_t dot = path.rfind('.');
-    if (dot == std::string::npos || path.substr(dot) != ".toml")
+    if (!path.ends_with(".toml"))
       throw convex::InvalidInput(
           "a starting file is TOML, with its comments; name it .toml, and `moreau convert` writes other "
           "forms");

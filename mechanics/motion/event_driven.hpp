@@ -111,7 +111,6 @@ class Motion::EventDriven final : public Motion::Course {
   ContactQuestion question_of(const std::vector<Index>& contacts) const;
   std::string advice_on_kinks() const;
   std::vector<Index> with_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);
-  bool has_kink_at(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   /// Why nothing is found that goes on.
   std::string obstacle_ahead(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   void continue_arc();

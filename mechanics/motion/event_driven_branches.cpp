@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "mechanics/motion/event_driven.hpp"
 #include "mechanics/number_text.hpp"
@@ -229,59 +230,38 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
   return true;
 }
 
-/// Of these contacts those whose df/dt changes with one of these branches.
+/// Of these contacts those whose df/dt or gradient changes with one of these branches.
 std::vector<Index> Motion::EventDriven::with_kinks(const std::vector<Index>& contacts,
                                                    const std::vector<Index>& switches) {
   std::vector<Index> found;
   if (contacts.empty() || switches.empty()) return found;
-  std::vector<std::pair<double, double>> range(contacts.size(), {INFINITY, -INFINITY});
+  const auto is_defined = [&] {
+    try {
+      expansion_.set(state);
+      return true;
+    } catch (const convex::InvalidInput&) {  // undefined on a branch, which is no kink
+      return false;
+    }
+  };
   for (const Index which : switches) {
     double& branch = expansion_.branch(static_cast<std::size_t>(which));
     const double before = branch;
+    std::vector<std::pair<double, Vector>> first;
     for (const double side : {-1.0, 1.0}) {
       branch = side;
-      try {
-        expansion_.set(state);
-      } catch (const convex::InvalidInput&) {  // undefined there, which is no kink
-        continue;
-      }
+      if (!is_defined()) break;
       for (std::size_t k = 0; k < contacts.size(); ++k) {
-        auto& [low, high] = range[k];
-        low = std::min(low, expansion_.rate(contacts[k]));
-        high = std::max(high, expansion_.rate(contacts[k]));
+        std::pair<double, Vector> here(expansion_.rate(contacts[k]), expansion_.row(contacts[k]));
+        if (side < 0)
+          first.push_back(std::move(here));
+        else if (first[k] != here && !is_among(found, contacts[k]))
+          found.push_back(contacts[k]);
       }
     }
     branch = before;
   }
-  expansion_.set(state);
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (range[k].first < range[k].second) found.push_back(contacts[k]);
+  is_defined();
   return found;
-}
-
-/// Whether gradients of contacts change with these branches.
-bool Motion::EventDriven::has_kink_at(const std::vector<Index>& contacts,
-                                      const std::vector<Index>& switches) {
-  for (const Index which : switches) {
-    double& branch = expansion_.branch(static_cast<std::size_t>(which));
-    std::vector<Vector> rows;
-    for (const bool turned : {false, true}) {
-      if (turned) branch = -branch;
-      try {
-        expansion_.set(state);
-      } catch (const convex::InvalidInput&) {  // undefined there, which is no kink
-        continue;
-      }
-      for (std::size_t k = 0; k < contacts.size(); ++k) {
-        const Vector u = expansion_.row(contacts[k]);
-        if (!turned)
-          rows.push_back(u);
-        else if (rows.size() > k && rows[k] != u)
-          return true;
-      }
-    }
-  }
-  return false;
 }
 
 /// Multipliers that have come to 0 at the end of an arc are as far from it as the rounding of time leaves

@@ -183,7 +183,8 @@ std::string Motion::EventDriven::advice_on_kinks() const {
 
 std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contacts,
                                                 const std::vector<Index>& switches) {
-  if (has_kink_at(contacts, switches)) return "neither side of a kink of f goes on alone" + advice_on_kinks();
+  if (!with_kinks(contacts, switches).empty())
+    return "neither side of a kink of f goes on alone" + advice_on_kinks();
   State ahead = state;
   const double step = time_ahead(state);
   ahead.t += step;
