@@ -56,7 +56,7 @@ void Motion::EventDriven::begin(const State& at) {
   const auto left_by_rounding = [&](Index a) { return roundings_of_f * epsilon * found.rates.f_scale[a]; };
   done.t = state.t;
   done.q = state.q;
-  expansion_.note_reach(state.q);
+  expansion_.note_reach(state);
   expansion_.set(state);
   std::vector<Index> switches = find_branches();
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
@@ -269,10 +269,11 @@ void Motion::EventDriven::take_step(double until) {
   std::swap(done, next);
   next.t = not_begun;
   done.length = tau;
+  since_event_ += tau;
   if (tau > 0) last_length_ = tau;
   state.q = there_.q;
   state.v = there_.v;
-  expansion_.note_reach(state.q);
+  expansion_.note_reach(state);
   if (is_last && zeros.empty()) {
     state.t = goal;
     since_start_ = goal - start_;

@@ -176,6 +176,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::optional<Behind> behind_;
   Vector left_of_f_;          // by constraint, at a kink: up to here f counts as 0
   double time_of_kinks_ = 0;  // the last one
+  double since_event_ = 0;    // the time from the last event to here
   double last_length_ = 0;    // of the last arc that has one
   std::string ends_here_;     // at its last instant: why it does not go on from there
 };

@@ -12,8 +12,8 @@
 namespace mechanics::inline motions {
 namespace {
 
-/// A step that misses the equations at its end by more than this many times its tolerance is taken again.
-constexpr double allowed_defect = 1;
+/// Where q'' at the end of a step is off by more than this part of the forces, it has jumped.
+constexpr double largest_part = 1e-3;
 
 /// Where a step is looked at besides its end: parts that no period of an expression is a multiple of.
 constexpr double parts_looked_at[] = {0.191, 0.433, 0.719};
@@ -74,18 +74,27 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   if (is_passed(tau)) return false;
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
     if (has_left_its_branch(k, tau)) {
-      obstacle_ = "an atan2 jumps there, and with it the argument of a branch";
+      obstacle_ = expansion_.has_angle(k)
+                      ? "an atan2 jumps there, and with it the argument of a branch"
+                      : "an argument of a branch is on its other side, and its series does not tell when";
       return false;
     }
   // Of a series that ends before a derivative without a bound the last terms may be of any size.
   const double moved = is_cut_ ? (sizes_[1] + sizes_[2] * tau) * tau : largest_term(sizes_, tau);
   const double size = expansion_.norm(q2_);
   q2_ -= expected_q2_;
-  const double defect = (expansion_.norm(q2_) + pull) * tau * tau;
+  const double miss = expansion_.norm(q2_) + pull;
+  const double defect = miss * tau * tau;
   const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
   if (!std::isfinite(defect + rounding)) return false;
+  // The last term of a series, which a step aims at, enters q'' with the square of its order.
   const double orders = is_cut_ ? 1 : static_cast<double>(next.q.cols());
-  if (defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding) return true;
+  // A tolerance of what moves allows any jump of q'' in a step that is short enough, such as one that no
+  // branch tells, of hypot(x, y) through 0: no more than rounding is stepped over there.
+  const bool jumps = miss > largest_part * (size + expansion_.force_norm());
+  const double allowed =
+      jumps ? 0 : std::max(options.tolerance, orders * orders * tolerance_of_step(options.tolerance));
+  if (defect <= allowed * moved + rounding) return true;
   // Forces that cancel have the rounding of their terms.
   return defect <= expansion_.rounding_of_acceleration() * tau * tau;
 }
@@ -172,7 +181,7 @@ bool Motion::EventDriven::may_leave_rest() {
           (of_velocity ? beside.v : beside.q)[i] += side * distance * std::max(1.0, std::abs(state.q[i]));
           try {
             expansion_.set(beside);
-            return std::abs(expansion_.acceleration(persist_).x[i]);
+            return side * expansion_.acceleration(persist_).x[i];
           } catch (const convex::InvalidInput&) {  // not defined on that side
             return 0.0;
           }

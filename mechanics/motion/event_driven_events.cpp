@@ -303,6 +303,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
     if (state.q != unprojected.q || state.v != unprojected.v) expansion_.expand({persist_, {}});
   }
   fill_next();
+  since_event_ = 0;
   bool changed = false;
   for (const Index which : switches) {
     const auto k = static_cast<std::size_t>(which);

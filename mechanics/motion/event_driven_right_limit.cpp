@@ -109,10 +109,10 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
 }
 
 /// Whether an argument is on the other side, of which the series of its arc know nothing: an atan2 in it has
-/// jumped.
+/// jumped, or they have few orders.
 bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   const double beyond = -expansion_.switch_argument(k)[0] * expansion_.branch(k);
-  if (!(beyond > 0) || !expansion_.has_angle(k)) return false;
+  if (!(beyond > 0) || !(is_cut_ || expansion_.has_angle(k))) return false;
   const double digits = half_the_digits * terms_of_argument(k, tau);
   return digits > 0 && beyond > digits + expansion_.rounding_of_argument(k);
 }
@@ -144,9 +144,9 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
     };
     for (std::size_t j = first + 1; j < c.size(); ++j)
       if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;
-    // What is left of a rest moves on by itself, and stays within that for as long as the arc behind was.
+    // What is left of a rest moves on by itself, and stays within that for as long as it took to come here.
     const bool is_left = c[0] != 0 || c[1] != 0;
-    if (is_left && first > 1 && done.length > 0 && width(first) > done.length) first = c.size();
+    if (is_left && first > 1 && since_event_ > 0 && width(first) > since_event_) first = c.size();
   }
   zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
   return first < c.size() ? std::copysign(1.0, c[first]) : 0;
@@ -204,6 +204,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
     ahead = branches;
     try {
       follow_jumps(at_zero, before);
+      expansion_.take_bases_for_zero();
       answer = expansion_.expand(question);
       if (!answer->excluding.empty()) return Found::excluded;
       Found found = Found::itself;

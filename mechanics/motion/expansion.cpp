@@ -29,6 +29,11 @@ std::vector<bool> nodes_with_angles(const expression::Tape& tape) {
   return has_angle;
 }
 
+[[noreturn]] void refuse_order(int order) {
+  throw convex::InvalidInput("a value or a derivative of order " + std::to_string(order) +
+                             " is not finite there");
+}
+
 }  // namespace
 
 Expansion::Expansion(const LagrangianSystem& system, int order)
@@ -78,9 +83,15 @@ void Expansion::look_at_constraints(const State& state) {
 
 void Expansion::look_at(const State& state) {
   take(state);
-  for (std::size_t group = 0; group < 3; ++group) series_.begin(group);
+  series_.bases_at_zero().clear();
+  begin();
   if (!has_branches_) take_branches();
-  check_finite();
+  while (!is_finite())
+    if (!find_bases_at_zero()) refuse_order(1);
+}
+
+void Expansion::begin() {
+  for (std::size_t group = 0; group < 3; ++group) series_.begin(group);
 }
 
 void Expansion::set(const State& state) {
@@ -95,30 +106,21 @@ void Expansion::take_branches() {
     const double argument = switch_argument(k)[0];
     if (!(argument < 0)) continue;
     branch(k) = -1;
-    for (std::size_t group = 0; group < 3; ++group) series_.begin(group);
+    begin();
   }
 }
 
-namespace {
-
-[[noreturn]] void refuse_order(int order) {
-  throw convex::InvalidInput("a value or a derivative of order " + std::to_string(order) +
-                             " is not finite there");
-}
-
-}  // namespace
-
 void Expansion::refuse_cut() const { refuse_order(cut_); }
 
-/// Something that enters the equations is not finite.
-void Expansion::check_finite() const {
+/// Whether all is that enters the equations.
+bool Expansion::is_finite() const {
   double spoiled = 0;  // 0 times a number, unless it is not finite
   const auto look = [&](Slot slot) { spoiled += 0 * series_[slot][0]; };
   for (const Slot slot : equations_.momentum) look(slot);
   for (const Slot slot : equations_.rate) look(slot);
   for (const auto& [i, slot] : equations_.force) look(slot);
   for (const Slot slot : equations_.constraint) look(slot);
-  if (spoiled != 0) refuse_order(1);
+  return spoiled == 0;
 }
 
 bool Expansion::depends(std::size_t k, expression::Dependence on) const {
@@ -267,6 +269,7 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   magnitudes_found_ = 0;
   for (int k = 0; k <= order_ - 2; ++k) {
     if (!begin_order(k)) {
+      if (take_bases_for_zero()) return expand(contacts);
       if (k == 0 || !open.empty()) refuse_order(k + 2);
       cut_ = k + 2;
       break;
@@ -285,7 +288,10 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
     }
     if (ends_by(k)) break;
   }
-  if (cut_ > 0) series_.cut();
+  if (cut_ > 0) {  // what coordinates make of the last order, with which their own goes on
+    series_.find(cut_ - 1);
+    series_.cut();
+  }
   for (std::size_t i = 0; i < equations_.program.coordinates(); ++i) {
     const Slot q = equations_.program.coordinate(i), v = equations_.program.velocity(i);
     if (cut_ > 0)

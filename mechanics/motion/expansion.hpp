@@ -67,7 +67,7 @@ class Expansion {
   const convex::Metric& inertia() const;
   /// Takes note that the motion has come by here: what rounding may have made of a coordinate near 0 is that
   /// of the sizes that it has had.
-  void note_reach(const Vector& q);
+  void note_reach(const State& at);
   /// Whether t itself enters something.
   bool uses_time() const { return steps_.uses_time; }
   /// ||x||_A.
@@ -86,6 +86,9 @@ class Expansion {
   /// From here on the gradients of these constraints count as 0.
   void take_gradients_for_zero(std::vector<Index> constraints) { zero_rows_ = std::move(constraints); }
   const std::vector<Index>& gradients_taken_for_zero() const { return zero_rows_; }
+  /// Where a root or a power is taken of what rounding has left of a 0, as that of |v| is where v turns, it
+  /// is one of 0 at this state, if all is finite then. Returns whether there is another one of that kind.
+  bool take_bases_for_zero();
   /// The gradient of f_a is 0 here, though f_a has q in it.
   bool is_singular(Index a) const { return !equations_.row[index(a)].empty() && row(a).isZero(0); }
   /// The largest of |u_i v_i| and |∂f/∂t|: what df/dt is the sum of.
@@ -177,7 +180,9 @@ class Expansion {
   void take(const State& state);
   void find_inertia();
   void take_branches();
-  void check_finite() const;
+  bool is_finite() const;
+  bool find_bases_at_zero();
+  void begin();
   bool begin_order(int k);
   double magnitude_of(expression::Slot series);
   HeldRows::Answer solve_held(const std::vector<Index>& held, std::optional<HeldRows>& rows) const;
@@ -224,9 +229,10 @@ class Expansion {
   bool magnitude_is_begun_ = false;
   std::vector<bool> has_angle_;  // by switch, whether an atan2 is in its argument
   std::vector<std::pair<expression::Slot, expression::Slot>> choosing_angles_;  // y and x of those
-  int magnitudes_found_ = 0;                                                    // orders of the question
-  convex::Matrix inverse_;  // |A⁻¹| of its entries, for few coordinates
-  Vector unit_norms_;       // ||e_i||_(A⁻¹), for many
+  std::vector<double> fastest_;  // by variable: the velocities that the motion has had
+  int magnitudes_found_ = 0;     // orders of the question
+  convex::Matrix inverse_;       // |A⁻¹| of its entries, for few coordinates
+  Vector unit_norms_;            // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
   std::vector<Index> zero_rows_;
   std::vector<ContactQuestion::Unloaded> unloaded_;

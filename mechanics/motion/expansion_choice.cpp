@@ -78,9 +78,42 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
   return of;
 }
 
-void Expansion::note_reach(const Vector& q) {
-  for (Index i = 0; i < q.size(); ++i)
-    magnitude_.reach(equations_.program.coordinate(index(i)), std::abs(q[i]));
+void Expansion::note_reach(const State& at) {
+  fastest_.resize(steps_.variables);
+  for (Index i = 0; i < at.q.size(); ++i) {
+    magnitude_.reach(equations_.program.coordinate(index(i)), std::abs(at.q[i]));
+    double& fastest = fastest_[equations_.program.velocity(index(i))];
+    fastest = std::max(fastest, std::abs(at.v[i]));
+  }
+}
+
+bool Expansion::find_bases_at_zero() {
+  magnitude_.begin(fastest_);
+  magnitude_is_begun_ = false;
+  std::vector<Slot>& found = series_.bases_at_zero();
+  const std::size_t before = found.size();
+  for (const TaylorStep& step : steps_.steps) {
+    if (step.kind != TaylorStep::Kind::root && step.kind != TaylorStep::Kind::power) continue;
+    const double base = series_[step.a][0];
+    if (base != 0 && std::abs(base) <= rounding(0) * if_finite(magnitude_.at(step.a, 0)))
+      found.push_back(step.a);
+  }
+  if (found.size() == before) return false;
+  begin();
+  return true;
+}
+
+bool Expansion::take_bases_for_zero() {
+  const std::vector<Slot> before = series_.bases_at_zero();
+  if (!find_bases_at_zero()) return false;
+  const bool may_be = is_finite();  // x / |x| is not
+  if (!may_be) {
+    series_.bases_at_zero() = before;
+    take(state_);
+    begin();
+  }
+  find_inertia();
+  return may_be;
 }
 
 double Expansion::rounding(int k) const {

@@ -26,11 +26,13 @@ TaylorMagnitude::TaylorMagnitude(const TaylorSeries& series)
       reach_(series.steps_->variables),
       slopes_(series.rows_.terms.size()) {}
 
-void TaylorMagnitude::begin() {
+void TaylorMagnitude::begin(std::span<const double> at_least) {
   const TaylorRows& rows = of_.rows_;
   for (std::size_t t = 0; t < slopes_.size(); ++t) slopes_[t] = std::abs(of_.terms_[t].c);
   for (std::size_t slot = 0; slot < of_.steps_->variables; ++slot)
     at(static_cast<Slot>(slot), 0) = std::max(reach_[slot], std::abs(of_[static_cast<Slot>(slot)][0]));
+  for (std::size_t slot = 0; slot < at_least.size(); ++slot)
+    at(static_cast<Slot>(slot), 0) = std::max(at(static_cast<Slot>(slot), 0), at_least[slot]);
   for (const auto& [slot, value] : of_.steps_->constants) at(slot, 0) = std::abs(value);
   for (std::size_t s = 0; s < of_.steps_->steps.size(); ++s) {
     begin_step(of_.steps_->steps[s], rows.row_of_step[s]);

@@ -20,8 +20,8 @@ class TaylorMagnitude {
   /// A variable that was as large as this on the way has roundings of that size, however small it is now.
   void reach(Slot variable, double size) { reach_[variable] = std::max(reach_[variable], size); }
 
-  /// Order 0 of all series, at the state of the series.
-  void begin();
+  /// Order 0 of all series, at the state of the series. at_least: by variable, how large it is taken to be.
+  void begin(std::span<const double> at_least = {});
   /// Order k of the series of a group, from those of the variables and from lower orders.
   void find(std::size_t group, int k);
   double& at(Slot series, int k) { return m_[series * width() + static_cast<std::size_t>(k)]; }

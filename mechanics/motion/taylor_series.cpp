@@ -69,6 +69,13 @@ void TaylorSeries::find_values(std::size_t group) {
     at(steps_->steps[s].out)[0] = value(steps_->steps[s]);
 }
 
+/// What a root or a power is taken of.
+double TaylorSeries::base(const TaylorStep& step) {
+  double& a = at(step.a)[0];
+  if (std::find(bases_at_zero_.begin(), bases_at_zero_.end(), step.a) != bases_at_zero_.end()) a = 0;
+  return a;
+}
+
 /// Coefficient 0; that of the partner is set.
 double TaylorSeries::value(const TaylorStep& step) {
   const double a = at(step.a)[0], b = step.kind == Kind::arc ? 0 : at(step.b)[0];
@@ -111,9 +118,9 @@ double TaylorSeries::value(const TaylorStep& step) {
     case Kind::logarithm:
       return std::log(a);
     case Kind::root:
-      return std::sqrt(a);
+      return std::sqrt(base(step));
     case Kind::power:
-      return std::pow(a, step.number);
+      return std::pow(base(step), step.number);
     case Kind::arc:
       return expression::value(static_cast<Operation>(step.b), a, a);
     case Kind::angle:

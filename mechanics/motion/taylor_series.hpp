@@ -34,6 +34,8 @@ class TaylorSeries {
   /// The branch of each switch of the steps: 1 or -1, or 0 where its argument stays 0.
   std::vector<double>& branches() { return branches_; }
   const std::vector<double>& branches() const { return branches_; }
+  /// Series of which a root or a power is taken, and whose coefficient 0 counts as 0.
+  std::vector<Slot>& bases_at_zero() { return bases_at_zero_; }
 
   /// Coefficient 0 of all series of a group, and their partial derivatives.
   void begin(std::size_t group);
@@ -72,6 +74,7 @@ class TaylorSeries {
   const double* at(Slot series) const { return c_.data() + place_[series]; }
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
   double value(const TaylorStep& step);
+  double base(const TaylorStep& step);
   void differentiate(const TaylorStep& step, std::uint32_t row);
   double of_row(std::size_t row) const;
   bool order_is_zero(int k) const;
@@ -90,6 +93,7 @@ class TaylorSeries {
   std::vector<double> factor_;  // ρ, by row
   std::vector<double> now_;     // of the order looked for, by series
   std::vector<double> branches_;
+  std::vector<Slot> bases_at_zero_;
   std::vector<double> velocity_;
   int degree_ = 0, found_ = 0;
 };

@@ -1,0 +1,96 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+/// Roots and powers that are no whole ones, of what comes to 0 on the way: springs of Hertz, drag, cusps.
+using namespace tests;
+using mechanics::MotionStatus;
+
+namespace {
+
+Followed pushed(const std::string& force, double x, double v, double until) {
+  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({x}, {v}), until);
+}
+
+/// ∫_a^b f by Simpson's rule on w with v = w².
+double integral_of_squares(double a, double b, const std::function<double(double)>& f) {
+  constexpr int parts = 20000;
+  const double from = std::sqrt(a), h = (std::sqrt(b) - from) / parts;
+  const auto g = [&](double w) { return 2 * w * f(w * w); };
+  double sum = g(from) + g(from + parts * h);
+  for (int i = 1; i < parts; ++i) sum += (i % 2 == 1 ? 4 : 2) * g(from + i * h);
+  return sum * h / 3;
+}
+
+}  // namespace
+
+TEST_CASE("a ball leaves a spring of Hertz after the time that he found, however the spring is written") {
+  // x'' = k max(-x, 0)^(3/2) from x = 1 with the velocity -v: contact lasts 2.9432 δ/v, δ the largest
+  // indentation (Hertz 1882; Johnson 1985, equation 11.24).
+  constexpr double k = 1e4, v = 1, until = 3;
+  const double indentation = std::pow(1.25 * v * v / k, 0.4);
+  const double contact =
+      2 * std::sqrt(std::numbers::pi) * std::tgamma(1.4) / std::tgamma(0.9) * indentation / v;
+  for (const char* force : {"1e4*max(-x, 0)^1.5", "1e4*max(0, -x)^1.5", "1e4*abs(min(x, 0))^1.5",
+                            "if(x < 0, 1e4*(-x)^1.5, 0)", "1e4*max(-x, 0)*sqrt(max(-x, 0))"}) {
+    CAPTURE(force);
+    const Followed motion = pushed(force, 1, -v, until);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().v[0] == doctest::Approx(v).epsilon(1e-10));
+    CHECK(motion.end().q[0] == doctest::Approx(v * (until - 1 / v - contact)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a ball that falls from a spring of Hertz comes back to it, with the velocity 0 and otherwise") {
+  for (const double v : {0.0, 1.0, -2.0, 3.0}) {
+    CAPTURE(v);
+    const Followed motion = pushed("1e4*max(-x, 0)^1.5 - 9.81", v == 0 ? 0 : 0.5, v, 20);
+    REQUIRE(motion.motion.status() == MotionStatus::done);
+    const double x = motion.end().q[0], speed = motion.end().v[0];
+    const double energy = speed * speed / 2 + 9.81 * x + 0.4e4 * std::pow(std::max(-x, 0.0), 2.5);
+    const double at_start = v * v / 2 + (v == 0 ? 0 : 9.81 * 0.5);
+    CHECK(std::abs(energy - at_start) < 1e-8);
+    CHECK(motion.events.size() > 20);
+  }
+}
+
+TEST_CASE(
+    "a drag by a fractional power of the speed lets the motion turn, at the time that its integral tells") {
+  // x'' = -|x'|^p sign(x') - g: v goes up from 0 in ∫ dv/(g + v^p), and down to -w in ∫ dv/(g - v^p).
+  constexpr double g = 9.81;
+  for (const double power : {1.2, 1.5, 2.5})
+    for (const double v : {1.0, 3.0, 0.3}) {
+      CAPTURE(power);
+      CAPTURE(v);
+      const double up = integral_of_squares(0, v, [&](double u) { return 1 / (g + std::pow(u, power)); });
+      const std::string p = std::to_string(power);
+      const Followed motion = pushed("-abs(x')^" + p + "*sign(x') - 9.81", 0.3, v, up + 0.2);
+      REQUIRE(motion.motion.status() == MotionStatus::done);
+      const double down = -motion.end().v[0];
+      CHECK(down > 0);
+      CHECK(integral_of_squares(0, down, [&](double u) { return 1 / (g - std::pow(u, power)); }) ==
+            doctest::Approx(0.2).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("a motion straight through the tip of a cone in V is that over the roof of |x|") {
+  const auto in_plane = [](const std::string& V, double x, double y) {
+    return followed({{"x", "y"}, "(x'^2 + y'^2)/2", V, {}, {}, {}, {}}, state({x, y}, {0, 0}), 6);
+  };
+  const double left = 6 - 4 * std::sqrt(2.0);  // of a period of 4√2
+  for (const char* V : {"hypot(x, y)", "sqrt(x^2 + y^2)", "norm([x, y, 0])", "(x^4)^0.25", "abs(x)"}) {
+    CAPTURE(V);
+    const Followed motion = in_plane(V, 1, 0);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(std::abs(motion.end().q[0] - (1 - left * left / 2)) < 1e-9);
+    CHECK(std::abs(motion.end().v[0] + left) < 1e-9);
+  }
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const Followed oblique = in_plane("hypot(x, y)", c, s);
+  CHECK(std::abs(oblique.end().q[0] * c + oblique.end().q[1] * s - (1 - left * left / 2)) < 1e-9);
+}
