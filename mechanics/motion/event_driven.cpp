@@ -37,7 +37,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
   zeros_of_switch_.assign(expansion_.switches(), 0);
-  for (auto* each : {&branches_behind_, &terms_behind_, &left_of_zero_, &width_of_zero_})
+  for (auto* each : {&branches_behind_, &terms_behind_, &rate_behind_, &left_of_zero_, &width_of_zero_})
     each->assign(expansion_.switches(), 0.0);
   is_crossed_.assign(expansion_.switches(), true);
   rounding_of_zero_.resize(expansion_.switches());

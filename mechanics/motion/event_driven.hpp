@@ -94,6 +94,7 @@ class Motion::EventDriven final : public Motion::Course {
   double sign_ahead(std::size_t k, std::vector<double> by_rounding);
   bool has_left_its_branch(std::size_t k, double tau);
   double terms_of_argument(std::size_t k, double tau) const;
+  double rate_of_argument(std::size_t k, double tau) const;
   bool is_at_zero_of_arc(std::size_t k) const;
   double left_of_argument(std::size_t k, double tau);
   bool has_left_zero(std::size_t k, double tau);
@@ -144,6 +145,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<double> branches_behind_;                              // by switch, before the event
   std::vector<bool> is_crossed_;      // by switch: its argument comes to 0 in the event, and does not go back
   std::vector<double> terms_behind_;  // by switch: what its argument was the sum of as the arc behind ended
+  std::vector<double> rate_behind_;   // and its rate
   std::vector<double> width_of_zero_;  // by switch, on the branches tried last: so far it counts as 0
   std::vector<double> left_of_zero_;   // by switch: what rounding may have made of one that stays 0, so far
   std::vector<std::vector<double>> rounding_of_zero_;  // and makes of it on the next arc, by order

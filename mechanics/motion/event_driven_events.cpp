@@ -43,8 +43,10 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   for (const Index a : persist_)
     if (!is_two_sided(a)) held.push_back(a);
   is_crossed_.assign(expansion_.switches(), false);
-  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     terms_behind_[k] = terms_of_argument(k, done.length);
+    rate_behind_[k] = rate_of_argument(k, done.length);
+  }
   for (const Zero& zero : zeros) {
     if (zero.of == Zero::Of::branch) {
       switches.push_back(zero.which);

@@ -39,6 +39,13 @@ double Motion::EventDriven::terms_of_argument(std::size_t k, double tau) const {
   return terms * std::pow(tau, watched_[watched_.size() - expansion_.switches() + k].zeros);
 }
 
+/// The rate of an argument on an arc, at a time, without its sign.
+double Motion::EventDriven::rate_of_argument(std::size_t k, double tau) const {
+  if (watched_.size() < expansion_.switches() || !(tau > 0)) return 0;
+  const Watched& one = watched_[watched_.size() - expansion_.switches() + k];
+  return std::abs(std::pow(tau, one.zeros) * (slope_at(one.c, tau) + one.zeros * value_at(one.c, tau) / tau));
+}
+
 /// Whether an argument is 0 at the end of the arc, as far as its series there tells.
 bool Motion::EventDriven::is_at_zero_of_arc(std::size_t k) const {
   return std::abs(expansion_.switch_argument(k)[0]) <=
@@ -130,7 +137,7 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
   const double moment = record.steps == 0 ? 0 : rounding_of_time(0);
   double terms = 0;
   for (std::size_t i = c.size(); i-- > 1;) terms = (terms + std::abs(c[i])) * moment;
-  const double farthest = roundings_at_zero * (by_rounding[0] + terms);
+  const double farthest = roundings_at_zero * (by_rounding[0] + std::max(terms, rate_behind_[k] * moment));
   width_of_zero_[k] = std::max(left_of_zero_[k], farthest);
   std::size_t first = std::abs(c[0]) > width_of_zero_[k] ? 0 : 1;
   while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) {

@@ -186,3 +186,19 @@ TEST_CASE(
   const double expected = -4 * limited.end().q[0] - 0.5;  // from -0.35 on x' > 0
   CHECK(limited.motion.acceleration()[0] == doctest::Approx(expected).epsilon(1e-12));
 }
+
+TEST_CASE("a band of small velocities is entered however slow the velocity is in it") {
+  // x'' = -1 outside |x'| < b, -b inside: from x' = 1 the band takes 2 s, back to the place where it began.
+  for (const double b : {1e-3, 1e-4}) {
+    const std::string band = b == 1e-3 ? "1e-3" : "1e-4";
+    for (const std::string& force :
+         {"if(x'^2 < " + band + "^2, -" + band + ", -1)", "if(abs(x') < " + band + ", -" + band + ", -1)"}) {
+      CAPTURE(force);
+      const Followed motion = followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {1}), 5);
+      const double left = 5 - (1 - b) - 2;
+      CHECK(motion.motion.status() == mechanics::MotionStatus::done);
+      CHECK(std::abs(motion.end().q[0] - ((1 - b * b) / 2 - b * left - left * left / 2)) < 1e-8);
+      CHECK(std::abs(motion.end().v[0] + b + left) < 1e-8);
+    }
+  }
+}
