@@ -36,11 +36,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   const auto m = system.constraints().size();
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
-  zeros_of_switch_.assign(expansion_.switches(), 0);
-  for (auto* each : {&branches_behind_, &terms_behind_, &rate_behind_, &left_of_zero_, &width_of_zero_})
-    each->assign(expansion_.switches(), 0.0);
-  is_crossed_.assign(expansion_.switches(), true);
-  rounding_of_zero_.resize(expansion_.switches());
+  arguments_.resize(expansion_.switches());
   is_weak_.assign(m, false);
   least_multiplier_.assign(m, 0.0);
   is_blurred_.assign(m, false);
@@ -156,7 +152,7 @@ void Motion::EventDriven::watch() {
     if (is_weak_[k]) watched_[count - 1].c[0] += room_of_weak * least;
   }
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
-    add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), zeros_of_switch_[k], 0);
+    add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), arguments_[k].zeros, 0);
     for (double& c : watched_[count - 1].c) c *= expansion_.branch(k);
   }
   watched_.resize(count);
@@ -329,7 +325,7 @@ void Motion::EventDriven::continue_arc() {
   if (status != MotionStatus::done) return;
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
-  std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
+  for (Argument& one : arguments_) one.zeros = 0;
   if (!expansion_.gradients_taken_for_zero().empty()) take_rounding_of_gradients_for_zero(persist_);
   expansion_.expand({persist_, {}});
   if (const std::vector<Zero> left = left_behind(); !left.empty()) return handle(left);

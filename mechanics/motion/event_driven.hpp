@@ -140,17 +140,22 @@ class Motion::EventDriven final : public Motion::Course {
   double start_ = 0;              // the time at the start
   double since_start_ = 0;        // the time is start_ + since_start_ + low_
   double low_ = 0;
-  std::vector<Index> persist_;                                       // held on the next arc
-  std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
-  std::vector<double> branches_behind_;                              // by switch, before the event
-  std::vector<bool> is_crossed_;      // by switch: its argument comes to 0 in the event, and does not go back
-  std::vector<double> terms_behind_;  // by switch: what its argument was the sum of as the arc behind ended
-  std::vector<double> rate_behind_;   // and its rate
-  std::vector<double> width_of_zero_;  // by switch, on the branches tried last: so far it counts as 0
-  std::vector<double> left_of_zero_;   // by switch: what rounding may have made of one that stays 0, so far
-  std::vector<std::vector<double>> rounding_of_zero_;  // and makes of it on the next arc, by order
-  std::vector<ContactQuestion::Unloaded> unloaded_;    // in the event at hand
-  std::vector<bool> is_weak_;                          // held without a multiplier
+  std::vector<Index> persist_;                     // held on the next arc
+  std::vector<int> zeros_of_f_, zeros_of_lambda_;  // leading ones on the next arc
+  /// The argument of a branch.
+  struct Argument {
+    double branch_behind = 0;                   ///< before the event
+    bool crosses = true;                        ///< it comes to 0 in the event, and does not go back
+    double terms_behind = 0;                    ///< what it was the sum of as the arc behind ended
+    double rate_behind = 0;                     ///< and its rate
+    double width_of_zero = 0;                   ///< on the branches tried last: so far it counts as 0
+    double left_of_zero = 0;                    ///< what rounding may have made of one that stays 0, so far
+    std::vector<double> rounding_of_zero = {};  ///< and makes of it on the next arc, by order
+    int zeros = 0;                              ///< leading ones on the next arc
+  };
+  std::vector<Argument> arguments_;                  // by switch
+  std::vector<ContactQuestion::Unloaded> unloaded_;  // in the event at hand
+  std::vector<bool> is_weak_;                        // held without a multiplier
   std::vector<double> least_multiplier_;  // of a weak one: what is less, rounding made at the arc's beginning
   std::vector<bool> is_blurred_;          // of an impact it was told that its time is uncertain
   std::vector<double> elapsed_;           // since the last impact, by constraint

@@ -219,7 +219,7 @@ void Motion::EventDriven::fill_next() {
     if (expansion_.branch(k) == 0) at_zero.push_back(static_cast<Index>(k));
   auto roundings = expansion_.rounding_of_switches(at_zero, orders_at_zero);
   for (std::size_t i = 0; i < at_zero.size(); ++i)
-    rounding_of_zero_[static_cast<std::size_t>(at_zero[i])] = std::move(roundings[i]);
+    arguments_[static_cast<std::size_t>(at_zero[i])].rounding_of_zero = std::move(roundings[i]);
   const double tolerance = tolerance_of_step(options.tolerance);
   expansion_.sizes(sizes_);
   step_ahead_ = step_length(sizes_, tolerance);

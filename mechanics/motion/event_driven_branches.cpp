@@ -99,13 +99,16 @@ void Motion::EventDriven::take_sides_ahead(Contacts& found, const std::vector<In
 /// and T - V with a kink differs by as much of its slope. Branches that jump with it, none of the switches
 /// themselves, go along.
 double Motion::EventDriven::difference_at_zero(std::size_t k, const std::vector<Index>& switches) {
-  std::vector<double> branches;
-  for (std::size_t j = 0; j < expansion_.switches(); ++j) branches.push_back(expansion_.branch(j));
-  const double ahead = branches[k], behind = branches_behind_[k], argument = expansion_.switch_argument(k)[0],
+  std::vector<double> before, branches;
+  for (std::size_t j = 0; j < expansion_.switches(); ++j) {
+    before.push_back(arguments_[j].branch_behind);
+    branches.push_back(expansion_.branch(j));
+  }
+  const double ahead = branches[k], behind = before[k], argument = expansion_.switch_argument(k)[0],
                speed = expansion_.switch_argument(k)[1];
   const auto difference = [&](const State& at) {
     double found = 0;
-    for (const std::vector<double>& side : {std::cref(branches_behind_), std::cref(branches)}) {
+    for (const std::vector<double>& side : {std::cref(before), std::cref(branches)}) {
       for (std::size_t j = 0; j < branches.size(); ++j)
         if (j == k || !is_among(switches, static_cast<Index>(j))) expansion_.branch(j) = side[j];
       expansion_.set(at);

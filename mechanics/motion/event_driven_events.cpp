@@ -42,15 +42,15 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   std::vector<Index> closing, touching, switches, held, lost;
   for (const Index a : persist_)
     if (!is_two_sided(a)) held.push_back(a);
-  is_crossed_.assign(expansion_.switches(), false);
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
-    terms_behind_[k] = terms_of_argument(k, done.length);
-    rate_behind_[k] = rate_of_argument(k, done.length);
+    arguments_[k].crosses = false;
+    arguments_[k].terms_behind = terms_of_argument(k, done.length);
+    arguments_[k].rate_behind = rate_of_argument(k, done.length);
   }
   for (const Zero& zero : zeros) {
     if (zero.of == Zero::Of::branch) {
       switches.push_back(zero.which);
-      is_crossed_[static_cast<std::size_t>(zero.which)] = !zero.is_touch;
+      arguments_[static_cast<std::size_t>(zero.which)].crosses = !zero.is_touch;
     }
     if (zero.of != Zero::Of::constraint) continue;
     // Where its gradient vanishes a contact is touched, and d²f/dt² tells whether it opens.
@@ -67,8 +67,8 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
                                     "nothing");
   }
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
-    branches_behind_[k] = expansion_.branch(k);
-    if (expansion_.branch(k) != 0) left_of_zero_[k] = 0;
+    arguments_[k].branch_behind = expansion_.branch(k);
+    if (expansion_.branch(k) != 0) arguments_[k].left_of_zero = 0;
   }
   note_behind();
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
@@ -249,7 +249,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
 void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vector<Index> switches,
                                     const std::vector<Index>& without_gradient) {
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
-  std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
+  for (Argument& one : arguments_) one.zeros = 0;
   std::fill(is_weak_.begin(), is_weak_.end(), false);
   take_rounding_of_gradients_for_zero(contacts);
   if (expansion_.has_open_angle())
@@ -309,7 +309,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
   bool changed = false;
   for (const Index which : switches) {
     const auto k = static_cast<std::size_t>(which);
-    changed = changed || branches_behind_[k] != expansion_.branch(k);
+    changed = changed || arguments_[k].branch_behind != expansion_.branch(k);
   }
   if (changed && done.length > 0) event(EventKind::branch, {}, state.v);
 }

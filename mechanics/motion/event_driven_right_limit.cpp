@@ -56,9 +56,11 @@ bool Motion::EventDriven::is_at_zero_of_arc(std::size_t k) const {
 /// derivatives, with which the rounding of forces enters; majorants of higher ones do not converge for as
 /// long.
 double Motion::EventDriven::left_of_argument(std::size_t k, double tau) {
+  const Argument& argument = arguments_[k];
   double left = 0;
-  for (std::size_t j = rounding_of_zero_[k].size(); j-- > 1;) left = (left + rounding_of_zero_[k][j]) * tau;
-  return left_of_zero_[k] + left;
+  for (std::size_t j = argument.rounding_of_zero.size(); j-- > 1;)
+    left = (left + argument.rounding_of_zero[j]) * tau;
+  return argument.left_of_zero + left;
 }
 
 /// Whether an argument that stayed 0 does so no longer, at a time of the next arc.
@@ -97,10 +99,10 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
     if (expansion_.branch(k) != 0) continue;
     const auto which = static_cast<Index>(k);
     const bool has_left = has_left_zero(k, done.length);
-    left_of_zero_[k] = left_of_argument(k, done.length);
+    arguments_[k].left_of_zero = left_of_argument(k, done.length);
     if (has_left)
       found.push_back({Zero::Of::branch, which, done.length});
-    else if (left_of_zero_[k] == 0)
+    else if (arguments_[k].left_of_zero == 0)
       unmoved.push_back(which);
   }
   const auto roundings = expansion_.rounding_of_switches(unmoved, expansion_.order() - 1);
@@ -129,22 +131,25 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
 /// zero is met a little beside: of its terms that one counts which comes first to what is left of it there.
 double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rounding) {
   const std::span<const double> c = expansion_.switch_argument(k);
+  Argument& argument = arguments_[k];
   // A velocity that comes to 0 has the rounding of what it was.
   if (record.steps > 0 && done.length > 0 && by_rounding.size() > 1)
-    by_rounding[1] = std::max(by_rounding[1], roundings_of_series * epsilon * terms_behind_[k] / done.length);
+    by_rounding[1] =
+        std::max(by_rounding[1], roundings_of_series * epsilon * argument.terms_behind / done.length);
   // One that contains others at 0 may have jumped off it with them: it is farther than the time of the event
   // is uncertain.
   const double moment = record.steps == 0 ? 0 : rounding_of_time(0);
   double terms = 0;
   for (std::size_t i = c.size(); i-- > 1;) terms = (terms + std::abs(c[i])) * moment;
-  const double farthest = roundings_at_zero * (by_rounding[0] + std::max(terms, rate_behind_[k] * moment));
-  width_of_zero_[k] = std::max(left_of_zero_[k], farthest);
-  std::size_t first = std::abs(c[0]) > width_of_zero_[k] ? 0 : 1;
+  const double farthest =
+      roundings_at_zero * (by_rounding[0] + std::max(terms, argument.rate_behind * moment));
+  argument.width_of_zero = std::max(argument.left_of_zero, farthest);
+  std::size_t first = std::abs(c[0]) > argument.width_of_zero ? 0 : 1;
   while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) {
     if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
     ++first;
   }
-  const bool is_double = first > 1 || (first == 1 && !is_crossed_[k]);
+  const bool is_double = first > 1 || (first == 1 && !argument.crosses);
   if (is_double && record.steps > 0 && first < c.size() && farthest > 0) {
     const auto width = [&](std::size_t j) {
       return std::pow(farthest / std::abs(c[j]), 1 / static_cast<double>(j));
@@ -155,7 +160,7 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
     const bool is_left = c[0] != 0 || c[1] != 0;
     if (is_left && first > 1 && since_event_ > 0 && width(first) > since_event_) first = c.size();
   }
-  zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
+  argument.zeros = static_cast<int>(std::min(first, c.size()));
   return first < c.size() ? std::copysign(1.0, c[first]) : 0;
 }
 
@@ -170,7 +175,7 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
     const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
     // Where rounding is more than half the digits of what it was on the arc, as near a pole, it is no sign of
     // 0.
-    if (is_at_zero && (was_off || rounding <= half_the_digits * terms_behind_[k]))
+    if (is_at_zero && (was_off || rounding <= half_the_digits * arguments_[k].terms_behind))
       at_zero.push_back(static_cast<Index>(k));
     if (branch == expansion_.branch(k)) continue;
     expansion_.branch(k) = branch;
@@ -200,7 +205,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   for (std::size_t k = 0; k < switches; ++k) across.push_back(expansion_.branch(k));
   for (const Index which : at_zero) {
     double& branch = across[static_cast<std::size_t>(which)];
-    branch = begins ? 0 : is_crossed_[static_cast<std::size_t>(which)] ? -branch : branch;
+    branch = begins ? 0 : arguments_[static_cast<std::size_t>(which)].crosses ? -branch : branch;
   }
   enum class Found { nothing, excluded, beside, itself };
   std::optional<ContactAnswer> answer;
@@ -269,7 +274,8 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   if (best == Found::nothing) return std::nullopt;
   if (best != Found::itself) look(of_best);
   for (const Index which : at_zero)
-    left_of_zero_[static_cast<std::size_t>(which)] = width_of_zero_[static_cast<std::size_t>(which)];
+    arguments_[static_cast<std::size_t>(which)].left_of_zero =
+        arguments_[static_cast<std::size_t>(which)].width_of_zero;
   // What jumped onto 0 on other branches only is not at 0 on these.
   const auto is_off = [&](Index which) {
     const auto k = static_cast<std::size_t>(which);
