@@ -18,6 +18,9 @@ constexpr double largest_part = 1e-3;
 /// Where a step is looked at besides its end: parts that no period of an expression is a multiple of.
 constexpr double parts_looked_at[] = {0.191, 0.433, 0.719};
 
+/// A series with few orders is for a step away from where it ends: so many one after the other lose digits.
+constexpr long most_cut_in_a_row = 1000;
+
 /// A contact is through when f is below 0 by more than so many roundings of its summands.
 constexpr double roundings_of_passing = 1e3;
 
@@ -197,7 +200,8 @@ bool Motion::EventDriven::may_leave_rest() {
 
 void Motion::EventDriven::fill_next() {
   is_cut_ = expansion_.cut() > 0;
-  if (is_cut_ && may_leave_rest()) expansion_.refuse_cut();
+  cut_in_a_row_ = is_cut_ ? cut_in_a_row_ + 1 : 0;
+  if (is_cut_ && (cut_in_a_row_ > most_cut_in_a_row || may_leave_rest())) expansion_.refuse_cut();
   const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
   next.t = state.t;
   next.q.resize(n, last + 1);

@@ -52,6 +52,9 @@ TaylorSeries::TaylorSeries(const TaylorProgram& of, int order)
       now_(rows_.series),
       branches_(of.steps.switches.size(), 1.0) {
   for (const auto& [series, value] : of.steps.constants) at(series)[0] = value;
+  if (std::none_of(of.steps.steps.begin(), of.steps.steps.end(), takes_base)) return;
+  stays_zero_.resize(rows_.series);
+  for (const auto& [series, value] : of.steps.constants) stays_zero_[series] = value == 0;
 }
 
 void TaylorSeries::begin(std::size_t group) {
@@ -59,6 +62,7 @@ void TaylorSeries::begin(std::size_t group) {
   for (std::size_t s = first; s < steps_->ends[group]; ++s) {
     const TaylorStep& step = steps_->steps[s];
     at(step.out)[0] = value(step);
+    if (!stays_zero_.empty()) stays_zero_[step.out] = stays_zero(step);
     if (const std::uint32_t row = rows_.row_of_step[s]; row != TaylorRows::none) differentiate(step, row);
   }
 }
@@ -67,6 +71,40 @@ void TaylorSeries::find_values(std::size_t group) {
   const std::size_t first = group == 0 ? 0 : steps_->ends[group - 1];
   for (std::size_t s = first; s < steps_->ends[group]; ++s)
     at(steps_->steps[s].out)[0] = value(steps_->steps[s]);
+}
+
+/// Whether the result is 0 all along, as max(-x, 0) is on the branch x > 0: derivatives of a power of it are
+/// 0 then, though those of the power itself are not finite there.
+bool TaylorSeries::stays_zero(const TaylorStep& step) const {
+  switch (step.kind) {
+    case Kind::sum:
+    case Kind::difference:
+      return stays_zero_[step.a] && stays_zero_[step.b];
+    case Kind::product:
+      return stays_zero_[step.a] || stays_zero_[step.b];
+    case Kind::negative:
+    case Kind::share:
+    case Kind::square:
+    case Kind::root:
+    case Kind::quotient:
+      return stays_zero_[step.a];
+    case Kind::power:
+      return stays_zero_[step.a] && step.number > 0;
+    case Kind::multiple:
+      return stays_zero_[step.b];
+    case Kind::absolute:
+      return stays_zero_[step.a] || branch(step) == 0;
+    case Kind::sign:
+      return branch(step) == 0;
+    case Kind::where_not_negative:
+      return stays_zero_[step.b] || branch(step) < 0;
+    case Kind::where_negative:
+      return stays_zero_[step.b] || branch(step) >= 0;
+    case Kind::either:
+      return stays_zero_[branch(step) > 0 ? step.a : step.b];
+    default:
+      return false;
+  }
 }
 
 /// What a root or a power is taken of.
@@ -163,6 +201,10 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       return;
     }
     case Kind::root: {  // f² = a
+      if (stays_zero_[step.a]) {
+        by[0].c = factor[0] = 0;
+        return;
+      }
       const double inverse = 1 / (2 * f);
       by[0].c = inverse;
       factor[0] = -inverse;
@@ -203,6 +245,10 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       factor[0] = 1 / p;
       return;
     case Kind::power:  // a f' = e f a'
+      if (stays_zero_[step.out]) {
+        by[0].c = factor[0] = 0;
+        return;
+      }
       by[0].c = step.number * f / a;
       factor[0] = 1 / a;
       return;

@@ -75,6 +75,7 @@ class TaylorSeries {
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
   double value(const TaylorStep& step);
   double base(const TaylorStep& step);
+  bool stays_zero(const TaylorStep& step) const;
   void differentiate(const TaylorStep& step, std::uint32_t row);
   double of_row(std::size_t row) const;
   bool order_is_zero(int k) const;
@@ -94,6 +95,8 @@ class TaylorSeries {
   std::vector<double> now_;     // of the order looked for, by series
   std::vector<double> branches_;
   std::vector<Slot> bases_at_zero_;
+  std::vector<bool>
+      stays_zero_;  // by series, on the branches taken; empty where no root or power asks for it
   std::vector<double> velocity_;
   int degree_ = 0, found_ = 0;
 };

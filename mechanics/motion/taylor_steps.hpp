@@ -39,6 +39,11 @@ struct TaylorStep {
   double number = 0;  ///< of what has branches: which switch
 };
 
+/// Whether it is a root or a power of something, whose derivatives are not finite where that is 0.
+inline bool takes_base(const TaylorStep& step) {
+  return step.kind == TaylorStep::Kind::root || step.kind == TaylorStep::Kind::power;
+}
+
 /// An argument whose sign chooses a branch of an expression, such as x in |x| or x - y in max(x, y).
 struct Switch {
   expression::Slot argument;

@@ -94,3 +94,25 @@ TEST_CASE("a motion straight through the tip of a cone in V is that over the roo
   const Followed oblique = in_plane("hypot(x, y)", c, s);
   CHECK(std::abs(oblique.end().q[0] * c + oblique.end().q[1] * s - (1 - left * left / 2)) < 1e-9);
 }
+
+TEST_CASE("a spring of Hertz that is not touched changes nothing") {
+  for (const char* stop :
+       {"max(x - 0.1, 0)^1.5", "max(x - 0.1, 0)^2.5", "max(x - 0.1, 0)*sqrt(max(x - 0.1, 0))",
+        "abs(max(x - 0.1, 0))^1.1", "sqrt(3*max(x - 0.1, 0)^2)*max(x - 0.1, 0)^0.5"}) {
+    CAPTURE(stop);
+    const Followed motion = pushed(std::string("-1000*") + stop + " - x", 0.05, 0, 5);
+    CHECK(motion.motion.record().steps < 10);
+    CHECK(motion.end().q[0] == doctest::Approx(0.05 * std::cos(5.0)).epsilon(1e-13));
+    CHECK(motion.end().v[0] == doctest::Approx(-0.05 * std::sin(5.0)).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("a motion all along which a derivative is not finite stops, and does not lose its digits") {
+  const Followed motion =
+      followed({{"x", "y"}, "x'^2/2 + y'^2/2", "", {}, {}, {{"y", "hypot(x, x)*sqrt(abs(x)) - y"}}, {}},
+               state({0, 1}, {0, 0}), 20);
+  if (motion.motion.status() == MotionStatus::done)
+    CHECK(motion.end().q[1] == doctest::Approx(std::cos(20.0)).epsilon(1e-9));
+  else
+    CHECK(motion.motion.why().find("not finite") != std::string::npos);
+}
