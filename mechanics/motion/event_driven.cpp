@@ -131,6 +131,7 @@ void Motion::EventDriven::watch() {
     one.zeros = zeros;
     c = c.subspan(static_cast<std::size_t>(zeros));
     // On a branch that is not taken they may leave the range of doubles; half of them tell where it ends.
+    if (!std::isfinite(c[0])) c = {};  // nothing is asked of it, on a branch that is not taken
     const std::size_t enough = c.size() / 2;
     while (c.size() > enough && !std::isfinite(c.back())) c = c.first(c.size() - 1);
     one.c.assign(c.begin(), c.end());

@@ -76,6 +76,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool time_stands_still() const { return events_at_once_ > many_at_once; }
   static constexpr long many_at_once = 10;
   void release_event(const std::vector<Index>& held_before, const Vector& velocity_before);
+  bool is_defined_here();
   std::vector<Index> find_branches();
   /// Of the switches, before a jump of the velocity.
   struct Switches {
@@ -100,6 +101,8 @@ class Motion::EventDriven final : public Motion::Course {
   bool has_left_zero(std::size_t k, double tau);
   std::vector<Zero> left_behind();
   std::optional<HeldRows::Answer> acceleration_off_zero(double tau);
+  std::optional<HeldRows::Answer> acceleration_off_zero(const State& there,
+                                                        const std::vector<std::size_t>& left);
   void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
   void take_sides_ahead(Contacts& found, const std::vector<Index>& switches);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
@@ -168,6 +171,7 @@ class Motion::EventDriven final : public Motion::Course {
   Vector q2_, expected_q2_;       // there, by the equations and by the series
   double reach_;                  // of arguments in a step
   bool is_blind_ = false;         // the step ahead is not the one that its series tell
+  bool ends_early_ = false;
   long cut_in_a_row_ = 0;
   bool is_cut_ = false;  // on the next arc: its series have few orders
   double step_ahead_ = 0;

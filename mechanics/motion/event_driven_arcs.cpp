@@ -83,7 +83,7 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
       return false;
     }
   // Of a series that ends before a derivative without a bound the last terms may be of any size.
-  const double moved = is_cut_ ? (sizes_[1] + sizes_[2] * tau) * tau : largest_term(sizes_, tau);
+  const double moved = ends_early_ ? (sizes_[1] + sizes_[2] * tau) * tau : largest_term(sizes_, tau);
   const double size = expansion_.norm(q2_);
   q2_ -= expected_q2_;
   const double miss = expansion_.norm(q2_) + pull;
@@ -175,6 +175,9 @@ bool Motion::EventDriven::may_leave_rest() {
   constexpr double far = 1e-6, near = 1e-12, steeper = 10, least_push = 1e-9;
   const double size = std::max(expansion_.force_norm(), 1.0);
   bool may_leave = false;
+  std::vector<std::size_t> at_zero;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    if (expansion_.branch(k) == 0) at_zero.push_back(k);
   for (Index i = 0; i < expansion_.coordinates() && !may_leave; ++i) {
     if (expansion_.position(i)[1] != 0 || expansion_.position(i)[2] != 0) continue;
     for (const bool of_velocity : {false, true})
@@ -182,12 +185,8 @@ bool Motion::EventDriven::may_leave_rest() {
         const auto push = [&](double distance) {
           State beside = state;
           (of_velocity ? beside.v : beside.q)[i] += side * distance * std::max(1.0, std::abs(state.q[i]));
-          try {
-            expansion_.set(beside);
-            return side * expansion_.acceleration(persist_).x[i];
-          } catch (const convex::InvalidInput&) {  // not defined on that side
-            return 0.0;
-          }
+          const auto answer = acceleration_off_zero(beside, at_zero);
+          return answer ? side * answer->x[i] : 0.0;
         };
         const double by_near = push(near);
         may_leave = may_leave || (by_near > least_push * size && by_near / near > steeper * push(far) / far);
@@ -200,7 +199,8 @@ bool Motion::EventDriven::may_leave_rest() {
 
 void Motion::EventDriven::fill_next() {
   is_cut_ = expansion_.cut() > 0;
-  cut_in_a_row_ = is_cut_ ? cut_in_a_row_ + 1 : 0;
+  ends_early_ = expansion_.ends_early();
+  cut_in_a_row_ = ends_early_ ? cut_in_a_row_ + 1 : 0;
   if (is_cut_ && (cut_in_a_row_ > most_cut_in_a_row || may_leave_rest())) expansion_.refuse_cut();
   const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
   next.t = state.t;
@@ -235,7 +235,7 @@ void Motion::EventDriven::fill_next() {
   watch();
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
-      step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
+      step_ahead_ = std::min(step_ahead_, std::max(trusted_length(one.c, tolerance), rounding_of_time(0)));
 }
 
 /// Free contacts whose f comes to 0 at the end of the motion asked for, as far as the rounding of time tells:

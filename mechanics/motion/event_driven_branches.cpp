@@ -30,9 +30,15 @@ Motion::EventDriven::Switches Motion::EventDriven::switches_before_jump(
 std::vector<Index> Motion::EventDriven::branches_after_jump(const Switches& before) {
   constexpr double left_by_rounding = 64 * std::numeric_limits<double>::epsilon();
   for (std::size_t k = 0; k < expansion_.switches(); ++k) expansion_.branch(k) = before.branches[k];
-  expansion_.set(state);
-  note_behind();
-  std::vector<Index> at_zero = find_branches();
+  std::vector<Index> at_zero;
+  if (is_defined_here()) {
+    note_behind();
+    at_zero = find_branches();
+  } else {  // as a power of |v| where v has turned
+    at_zero = find_branches();
+    expansion_.set(state);
+    note_behind();
+  }
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     const double now = expansion_.switch_argument(k)[0], then = before.arguments[k];
     const bool stays = now == then && is_among(before.at_zero, static_cast<Index>(k));
@@ -40,6 +46,16 @@ std::vector<Index> Motion::EventDriven::branches_after_jump(const Switches& befo
     if (now != 0 && (stays || comes)) at_zero.push_back(static_cast<Index>(k));
   }
   return at_zero;
+}
+
+/// Whether all has a value at the state, on the branches as they are; arguments of branches are known anyhow.
+bool Motion::EventDriven::is_defined_here() {
+  try {
+    expansion_.set(state);
+    return true;
+  } catch (const convex::InvalidInput&) {
+    return false;
+  }
 }
 
 /// The branch of every switch by the sign of its argument; returns those whose argument is 0.
@@ -50,7 +66,7 @@ std::vector<Index> Motion::EventDriven::find_branches() {
     if (argument == 0) at_zero.push_back(static_cast<Index>(k));
     if (argument == 0 || branch == expansion_.branch(k)) continue;
     expansion_.branch(k) = branch;
-    expansion_.set(state);
+    is_defined_here();
   }
   return at_zero;
 }
@@ -238,21 +254,13 @@ std::vector<Index> Motion::EventDriven::with_kinks(const std::vector<Index>& con
                                                    const std::vector<Index>& switches) {
   std::vector<Index> found;
   if (contacts.empty() || switches.empty()) return found;
-  const auto is_defined = [&] {
-    try {
-      expansion_.set(state);
-      return true;
-    } catch (const convex::InvalidInput&) {  // undefined on a branch, which is no kink
-      return false;
-    }
-  };
   for (const Index which : switches) {
     double& branch = expansion_.branch(static_cast<std::size_t>(which));
     const double before = branch;
     std::vector<std::pair<double, Vector>> first;
     for (const double side : {-1.0, 1.0}) {
       branch = side;
-      if (!is_defined()) break;
+      if (!is_defined_here()) break;
       for (std::size_t k = 0; k < contacts.size(); ++k) {
         std::pair<double, Vector> here(expansion_.rate(contacts[k]), expansion_.row(contacts[k]));
         if (side < 0)
@@ -263,7 +271,7 @@ std::vector<Index> Motion::EventDriven::with_kinks(const std::vector<Index>& con
     }
     branch = before;
   }
-  is_defined();
+  is_defined_here();
   return found;
 }
 

@@ -18,6 +18,9 @@ constexpr double roundings_at_zero = 4;
 /// A series is known at the end of its arc to so many roundings of what it is the sum of.
 constexpr double roundings_of_series = 16;
 
+/// What comes to rest has taken longer than so many times the rounding of the time.
+constexpr double instants_until_rest = 1e3;
+
 /// Of so many arguments at 0 all branches are tried.
 constexpr std::size_t most_tried = 8;
 
@@ -76,17 +79,26 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(doubl
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
     if (has_left_zero(k, tau)) left.push_back(k);
   if (left.empty()) return expansion_.acceleration(persist_);
+  const std::optional<HeldRows::Answer> answer = acceleration_off_zero(there_, left);
+  expansion_.set(there_);
+  return answer;
+}
+
+/// The same at a state, on the branches that these arguments, which are 0 here, take there.
+std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(
+    const State& there, const std::vector<std::size_t>& left) {
   std::optional<HeldRows::Answer> answer;
   try {
+    expansion_.set(there);
     for (const std::size_t k : left)
-      expansion_.branch(k) = std::copysign(1.0, expansion_.switch_argument(k)[0]);
-    expansion_.set(there_);
+      if (const double argument = expansion_.switch_argument(k)[0]; argument != 0)
+        expansion_.branch(k) = std::copysign(1.0, argument);
+    expansion_.set(there);
     answer = expansion_.acceleration(persist_);
   } catch (const convex::InvalidInput& error) {
     obstacle_ = error.what();
   }
   for (const std::size_t k : left) expansion_.branch(k) = 0;
-  expansion_.set(there_);
   return answer;
 }
 
@@ -131,6 +143,7 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
 /// zero is met a little beside: of its terms that one counts which comes first to what is left of it there.
 double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rounding) {
   const std::span<const double> c = expansion_.switch_argument(k);
+  if (std::isnan(c[0])) return expansion_.branch(k);  // not asked on these branches
   Argument& argument = arguments_[k];
   // A velocity that comes to 0 has the rounding of what it was.
   if (record.steps > 0 && done.length > 0 && by_rounding.size() > 1)
@@ -150,15 +163,17 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
     ++first;
   }
   const bool is_double = first > 1 || (first == 1 && !argument.crosses);
-  if (is_double && record.steps > 0 && first < c.size() && farthest > 0) {
+  if (record.steps > 0 && first > 0 && first < c.size() && farthest > 0) {
     const auto width = [&](std::size_t j) {
       return std::pow(farthest / std::abs(c[j]), 1 / static_cast<double>(j));
     };
-    for (std::size_t j = first + 1; j < c.size(); ++j)
+    for (std::size_t j = first + 1; is_double && j < c.size(); ++j)
       if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;
-    // What is left of a rest moves on by itself, and stays within that for as long as it took to come here.
+    // What is left of a rest, c_0 or c_1, moves on by itself, and stays within that for as long as it took to
+    // come here.
     const bool is_left = c[0] != 0 || c[1] != 0;
-    if (is_left && first > 1 && since_event_ > 0 && width(first) > since_event_) first = c.size();
+    if (is_left && since_event_ > instants_until_rest * moment && width(first) > since_event_)
+      first = c.size();
   }
   argument.zeros = static_cast<int>(std::min(first, c.size()));
   return first < c.size() ? std::copysign(1.0, c[first]) : 0;
@@ -167,11 +182,16 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
 /// The branches of the others where these jump, and with them an argument such as that of sign(if(x < 0, y,
 /// 1)). What is at 0 then, or jumps onto it, is in question as these are.
 void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before) {
-  expansion_.set(state);
+  const auto set = [this] {
+    expansion_.set(state);
+    expansion_.take_bases_for_zero();
+  };
+  set();
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     if (is_among(at_zero, static_cast<Index>(k))) continue;
     const double argument = expansion_.switch_argument(k)[0], rounding = expansion_.rounding_of_argument(k);
-    const bool is_at_zero = std::abs(argument) <= rounding, was_off = std::abs(before[k]) > jumped * rounding;
+    const bool is_at_zero = std::abs(argument) <= rounding,
+               was_off = !(std::abs(before[k]) <= jumped * rounding);
     const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
     // Where rounding is more than half the digits of what it was on the arc, as near a pole, it is no sign of
     // 0.
@@ -179,7 +199,7 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
       at_zero.push_back(static_cast<Index>(k));
     if (branch == expansion_.branch(k)) continue;
     expansion_.branch(k) = branch;
-    expansion_.set(state);
+    set();
   }
 }
 
@@ -216,7 +236,6 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
     ahead = branches;
     try {
       follow_jumps(at_zero, before);
-      expansion_.take_bases_for_zero();
       answer = expansion_.expand(question);
       if (!answer->excluding.empty()) return Found::excluded;
       Found found = Found::itself;

@@ -110,7 +110,7 @@ void Expansion::take_branches() {
   }
 }
 
-void Expansion::refuse_cut() const { refuse_order(cut_); }
+void Expansion::refuse_cut() const { refuse_order(cut()); }
 
 /// Whether all is that enters the equations.
 bool Expansion::is_finite() const {

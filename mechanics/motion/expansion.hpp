@@ -117,8 +117,13 @@ class Expansion {
   ContactAnswer expand(const ContactQuestion& contacts);
 
   /// The order from which on a derivative of the motion is not finite at the state, as that of a drag |v| v
-  /// at rest: so far the series of the last `expand` go. 0 where there is none.
-  int cut() const { return cut_; }
+  /// at rest: so far the series of the last `expand` go, or without its terms. 0 where there is none.
+  int cut() const {
+    const int without_bound = series_.without_bound();
+    return cut_ > 0 || without_bound == 0 ? cut_ : without_bound + 2;
+  }
+  /// Whether they end before that order.
+  bool ends_early() const { return cut_ > 0; }
   /// Throws InvalidInput, saying so.
   [[noreturn]] void refuse_cut() const;
 

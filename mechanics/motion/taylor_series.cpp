@@ -58,6 +58,7 @@ TaylorSeries::TaylorSeries(const TaylorProgram& of, int order)
 }
 
 void TaylorSeries::begin(std::size_t group) {
+  if (group == 0) without_bound_ = 0;
   const std::size_t first = group == 0 ? 0 : steps_->ends[group - 1];
   for (std::size_t s = first; s < steps_->ends[group]; ++s) {
     const TaylorStep& step = steps_->steps[s];
@@ -83,6 +84,7 @@ bool TaylorSeries::stays_zero(const TaylorStep& step) const {
     case Kind::product:
       return stays_zero_[step.a] || stays_zero_[step.b];
     case Kind::negative:
+    case Kind::absolute:
     case Kind::share:
     case Kind::square:
     case Kind::root:
@@ -92,16 +94,12 @@ bool TaylorSeries::stays_zero(const TaylorStep& step) const {
       return stays_zero_[step.a] && step.number > 0;
     case Kind::multiple:
       return stays_zero_[step.b];
-    case Kind::absolute:
-      return stays_zero_[step.a] || branch(step) == 0;
-    case Kind::sign:
-      return branch(step) == 0;
     case Kind::where_not_negative:
       return stays_zero_[step.b] || branch(step) < 0;
     case Kind::where_negative:
       return stays_zero_[step.b] || branch(step) >= 0;
     case Kind::either:
-      return stays_zero_[branch(step) > 0 ? step.a : step.b];
+      return branch(step) != 0 && stays_zero_[branch(step) > 0 ? step.a : step.b];
     default:
       return false;
   }
@@ -177,6 +175,15 @@ double TaylorSeries::value(const TaylorStep& step) {
   return 0;
 }
 
+/// Of a power of 0.
+void TaylorSeries::differentiate_at_zero(const TaylorStep& step, double exponent, double& by,
+                                         double& factor) {
+  by = factor = 0;
+  if (stays_zero_[step.a]) return;
+  const int order = static_cast<int>(std::ceil(exponent));
+  without_bound_ = without_bound_ == 0 ? order : std::min(without_bound_, order);
+}
+
 /// The partial derivatives at order 0, from the equation of a function (Griewank and Walther 2008, section
 /// 13.2), and the factor of what lower orders add to it.
 void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
@@ -201,10 +208,7 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       return;
     }
     case Kind::root: {  // f² = a
-      if (stays_zero_[step.a]) {
-        by[0].c = factor[0] = 0;
-        return;
-      }
+      if (a == 0) return differentiate_at_zero(step, 0.5, by[0].c, factor[0]);
       const double inverse = 1 / (2 * f);
       by[0].c = inverse;
       factor[0] = -inverse;
@@ -245,10 +249,7 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       factor[0] = 1 / p;
       return;
     case Kind::power:  // a f' = e f a'
-      if (stays_zero_[step.out]) {
-        by[0].c = factor[0] = 0;
-        return;
-      }
+      if (a == 0 && step.number > 0) return differentiate_at_zero(step, step.number, by[0].c, factor[0]);
       by[0].c = step.number * f / a;
       factor[0] = 1 / a;
       return;

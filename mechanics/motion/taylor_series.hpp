@@ -60,6 +60,9 @@ class TaylorSeries {
   void end(Slot variable, int k, double coefficient) { at(variable)[k] = coefficient; }
   /// From its first coefficient on that is not finite a series counts as 0.
   void cut();
+  /// The least order at which a power of what is 0 at the state, but does not stay so, has a derivative that
+  /// is not finite; its derivatives count as 0. 0 where there is none.
+  int without_bound() const { return without_bound_; }
 
   /// The recurrences, and their terms with the partial derivatives at order 0.
   const TaylorRows& rows() const { return rows_; }
@@ -76,6 +79,7 @@ class TaylorSeries {
   double value(const TaylorStep& step);
   double base(const TaylorStep& step);
   bool stays_zero(const TaylorStep& step) const;
+  void differentiate_at_zero(const TaylorStep& step, double exponent, double& by, double& factor);
   void differentiate(const TaylorStep& step, std::uint32_t row);
   double of_row(std::size_t row) const;
   bool order_is_zero(int k) const;
@@ -98,7 +102,7 @@ class TaylorSeries {
   std::vector<bool>
       stays_zero_;  // by series, on the branches taken; empty where no root or power asks for it
   std::vector<double> velocity_;
-  int degree_ = 0, found_ = 0;
+  int degree_ = 0, found_ = 0, without_bound_ = 0;
 };
 
 /// Σ c_k τ^k.

@@ -116,3 +116,77 @@ TEST_CASE("a motion all along which a derivative is not finite stops, and does n
   else
     CHECK(motion.motion.why().find("not finite") != std::string::npos);
 }
+
+TEST_CASE("a force that begins as a root of the time lifts a body from its floor") {
+  for (const double start : {-3.0, 0.0, 5.0}) {
+    const SystemText text{{"y"},
+                          "y'^2/2",
+                          "",
+                          {{"s", std::to_string(start)}},
+                          {},
+                          {{"y", "if(t > s, sqrt(t - s), 0)"}},
+                          {{"floor", "y >= 0"}}};
+    const Followed found =
+        followed(text, mechanics::State{start, mechanics::Vector{{0}}, mechanics::Vector{{0}}}, start + 2);
+    CHECK(found.motion.status() == MotionStatus::done);
+    CHECK(found.end().q[0] == doctest::Approx(4.0 / 15 * std::pow(2, 2.5)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a spring of Hertz takes up a force that begins at 0") {
+  const Followed pressed = pushed("-40*max(x, 0)^1.5 + t", 0, 0, 5),
+                 by_if = pushed("if(x > 0, -40*x^1.5, 0) + t", 0, 0, 5);
+  REQUIRE(pressed.motion.status() == MotionStatus::done);
+  CHECK(pressed.end().q[0] == doctest::Approx(by_if.end().q[0]).epsilon(1e-10));
+  const Followed short_one = pushed("-40*max(x, 0)^1.5 + t", 0, 0, 1e-2);
+  CHECK(short_one.end().q[0] == doctest::Approx(1e-6 / 6).epsilon(1e-3));  // t³/6 but for 2e-4 of it
+}
+
+TEST_CASE("a body at rest under drag by a power of its speed does not slow down what moves beside it") {
+  for (const char* drag : {"-5*abs(x')^1.5*sign(x')", "-abs(x)^1.5*sign(x)", "(x'^2)^0.75*sign(-x')"}) {
+    CAPTURE(drag);
+    const Followed motion =
+        followed({{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {{"x", drag}, {"y", "-100*y"}}, {}},
+                 state({0, 1}, {0, 0}), 3);
+    CHECK(motion.motion.record().steps < 100);
+    CHECK(motion.end().q[1] == doctest::Approx(std::cos(30.0)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("an impact turns the velocity under drag by a power of the speed") {
+  const SystemText ball{
+      {"x"}, "x'^2/2", "9.81*x", {}, {}, {{"x", "-0.5*abs(x')^1.5*sign(x')"}}, {{"floor", "x >= 0"}}};
+  const Followed bouncing = followed(ball, state({1}, {0}), 0.7, restitution(ball, 0.8));
+  REQUIRE(bouncing.motion.status() == MotionStatus::done);
+  REQUIRE(bouncing.motion.record().impacts == 1);
+  // Down in ∫ dv/(g - v^p/2) to w, with ∫ v dv/(g - v^p/2) = 1; up from 0.8 w.
+  const auto down = [](double u) { return 1 / (9.81 - 0.5 * std::pow(u, 1.5)); };
+  const auto up = [](double u) { return 1 / (9.81 + 0.5 * std::pow(u, 1.5)); };
+  double low = 3, high = 4.4;
+  for (int i = 0; i < 60; ++i) {
+    const double w = (low + high) / 2;
+    (integral_of_squares(0, w, [&](double u) { return u * down(u); }) < 1 ? low : high) = w;
+  }
+  const double v = bouncing.end().v[0];
+  CHECK(integral_of_squares(0, low, down) + integral_of_squares(v, 0.8 * low, up) ==
+        doctest::Approx(0.7).epsilon(1e-9));
+}
+
+TEST_CASE("a spring of Hertz with damping that does not pull lets go, however it is cut off") {
+  const Followed told = pushed("-9.81 - if(x > 0.5, 1000*(x - 0.5)^1.5*max(1 + 0.5*x', 0), 0)", 0, 10, 5);
+  for (const char* force : {"-9.81 - max(if(x > 0.5, 1000*(x - 0.5)^1.5*(1 + 0.5*x'), 0), 0)",
+                            "-9.81 - if(x > 0.5, max(1000*(x - 0.5)^1.5*(1 + 0.5*x'), 0), 0)",
+                            "-9.81 - max(1000*max(x - 0.5, 0)^1.5*(1 + 0.5*x'), 0)"}) {
+    CAPTURE(force);
+    const Followed motion = pushed(force, 0, 10, 5);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(told.end().q[0]).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("a root from whose 0 several motions lead is refused where |x| is in it, too") {
+  for (const char* force : {"sqrt(x)", "sqrt(abs(x))", "12*sqrt(max(x, 0))"}) {
+    CAPTURE(force);
+    CHECK_THROWS_AS(pushed(force, 0, 0, 3), convex::InvalidInput);
+  }
+}

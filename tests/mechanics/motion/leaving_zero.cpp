@@ -153,3 +153,18 @@ TEST_CASE(
     CHECK(motion.motion.record().steps < 20);
   }
 }
+
+TEST_CASE("a body that friction alone slows down comes to rest, whatever rounding leaves of its velocity") {
+  for (const double v : {0.05, 0.1, 0.3, 1.0, 2.0, 3.0})
+    for (const char* force : {"-0.3*sign(x') - 0.2*x'", "-(0.5 + 0.5*exp(-(x'/0.1)^2))*sign(x')",
+                              "-0.3*tanh(x'/0.01) - 0.1*sign(x')"}) {
+      CAPTURE(v);
+      CAPTURE(force);
+      const Followed motion = pushed(force, 0, v, 20), later = pushed(force, 0, v, 40);
+      CHECK(motion.motion.status() == MotionStatus::done);
+      CHECK(std::abs(motion.end().v[0]) < 1e-14);
+      CHECK(later.end().q[0] == doctest::Approx(motion.end().q[0]).epsilon(1e-14));
+    }
+  const double rest = 1 / 0.2 - 0.3 / 0.04 * std::log(1 + 0.2 / 0.3);  // of x'' = -0.3 - 0.2 x' from 1
+  CHECK(pushed("-0.3*sign(x') - 0.2*x'", 0, 1, 20).end().q[0] == doctest::Approx(rest).epsilon(1e-12));
+}
