@@ -53,6 +53,7 @@ std::vector<Index> Motion::EventDriven::brought_to_rest(std::vector<Index> conta
     return std::abs(expansion_.rate(a) + u.dot(change)) > at_rest * fastest + expansion_.rounding_of_rate(a);
   });
   state.v += change;
+  for (const Index a : contacts) zeros_of_f_[static_cast<std::size_t>(a)] = 0;  // none of them leaves
   return contacts;
 }
 

@@ -308,3 +308,17 @@ TEST_CASE(
   CHECK(motion.end().v[0] == doctest::Approx(-0.4075).epsilon(1e-12));
   CHECK(motion.motion.status() == MotionStatus::done);
 }
+
+TEST_CASE("bounces come to rest on a floor at which a force has a kink") {
+  for (const char* spring : {"max(y, 0)", "abs(y)", "-min(-y, 0)", "if(y > 0, y, 0)"}) {
+    CAPTURE(spring);
+    const SystemText text{
+        {"y"}, "y'^2/2", "", {}, {}, {{"y", std::string("-9.81 - 100*") + spring}}, {{"floor", "y >= 0"}}};
+    for (const double y : {0.0, 1.0}) {
+      const Followed motion = followed(text, state({y}, {1 - y}), 8, restitution(text, 0.8));
+      CHECK(motion.motion.status() == MotionStatus::done);
+      CHECK(std::abs(motion.end().q[0]) < 1e-14);
+      CHECK(motion.motion.multipliers()[0] == doctest::Approx(9.81).epsilon(1e-12));
+    }
+  }
+}
