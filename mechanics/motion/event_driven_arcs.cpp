@@ -21,6 +21,9 @@ constexpr double parts_looked_at[] = {0.191, 0.433, 0.719};
 /// A series with few orders is for a step away from where it ends: so many one after the other lose digits.
 constexpr long most_cut_in_a_row = 1000;
 
+/// A motion is known to so many roundings of its length.
+constexpr double roundings_of_motion = 16;
+
 /// A contact is through when f is below 0 by more than so many roundings of its summands.
 constexpr double roundings_of_passing = 1e3;
 
@@ -98,6 +101,8 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   const double allowed =
       jumps ? 0 : std::max(options.tolerance, orders * orders * tolerance_of_step(options.tolerance));
   if (defect <= allowed * moved + rounding) return true;
+  // Away from where a derivative has no bound a step leads that is nothing beside the whole motion.
+  if (is_cut_ && tau <= roundings_of_motion * epsilon * (until_ - start_)) return true;
   // Forces that cancel have the rounding of their terms.
   return defect <= expansion_.rounding_of_acceleration() * tau * tau;
 }

@@ -63,7 +63,7 @@ TEST_CASE(
     "a drag by a fractional power of the speed lets the motion turn, at the time that its integral tells") {
   // x'' = -|x'|^p sign(x') - g: v goes up from 0 in ∫ dv/(g + v^p), and down to -w in ∫ dv/(g - v^p).
   constexpr double g = 9.81;
-  for (const double power : {1.2, 1.5, 2.5})
+  for (const double power : {0.5, 0.8, 1.2, 1.5, 2.5})
     for (const double v : {1.0, 3.0, 0.3}) {
       CAPTURE(power);
       CAPTURE(v);
@@ -130,6 +130,15 @@ TEST_CASE("a force that begins as a root of the time lifts a body from its floor
         followed(text, mechanics::State{start, mechanics::Vector{{0}}, mechanics::Vector{{0}}}, start + 2);
     CHECK(found.motion.status() == MotionStatus::done);
     CHECK(found.end().q[0] == doctest::Approx(4.0 / 15 * std::pow(2, 2.5)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a force that begins at rest as a power of the time is followed from there") {
+  for (const double power : {0.5, 1.5, 2.2}) {
+    CAPTURE(power);
+    const double x = std::pow(5, power + 2) / ((power + 1) * (power + 2));
+    for (const std::string t : {"t", "max(t, 0)", "abs(t)"})
+      CHECK(pushed(t + "^" + std::to_string(power), 0, 0, 5).end().q[0] == doctest::Approx(x).epsilon(1e-12));
   }
 }
 
