@@ -21,6 +21,9 @@ constexpr double roundings_of_series = 16;
 /// What comes to rest has taken longer than so many times the rounding of the time.
 constexpr double instants_until_rest = 1e3;
 
+/// A rate that falls to less than this part of itself at an event is that of a rest.
+constexpr double part_of_rate = 1e-3;
+
 /// Of so many arguments at 0 all branches are tried.
 constexpr std::size_t most_tried = 8;
 
@@ -292,9 +295,18 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   }
   if (best == Found::nothing) return std::nullopt;
   if (best != Found::itself) look(of_best);
-  for (const Index which : at_zero)
-    arguments_[static_cast<std::size_t>(which)].left_of_zero =
-        arguments_[static_cast<std::size_t>(which)].width_of_zero;
+  for (const Index which : at_zero) {
+    const auto k = static_cast<std::size_t>(which);
+    Argument& argument = arguments_[k];
+    argument.left_of_zero = argument.width_of_zero;
+    const double rate = std::abs(expansion_.switch_argument(k)[1]);
+    if (!begins && expansion_.branch(k) == 0 && argument.crosses && rate > 0 &&
+        rate >= part_of_rate * argument.rate_behind)
+      remark(
+          RemarkKind::doubt,
+          "an argument of a branch, as x of |x|, comes to 0 with no more than rounding of what it was, and "
+          "counts as 0 from there on");
+  }
   // What jumped onto 0 on other branches only is not at 0 on these.
   const auto is_off = [&](Index which) {
     const auto k = static_cast<std::size_t>(which);
