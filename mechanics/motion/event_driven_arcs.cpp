@@ -91,18 +91,23 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   q2_ -= expected_q2_;
   const double miss = expansion_.norm(q2_) + pull;
   const double defect = miss * tau * tau;
-  const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
+  const double bend = size + expansion_.force_norm();
+  const double rounding = 1e4 * epsilon * (moved + bend * tau * tau);
   if (!std::isfinite(defect + rounding)) return false;
   // The last term of a series, which a step aims at, enters q'' with the square of its order.
   const double orders = is_cut_ ? 1 : static_cast<double>(next.q.cols());
   // A tolerance of what moves allows any jump of q'' in a step that is short enough, such as one that no
   // branch tells, of hypot(x, y) through 0: no more than rounding is stepped over there.
-  const bool jumps = miss > largest_part * (size + expansion_.force_norm());
+  const bool jumps = miss > largest_part * bend;
   const double allowed =
       jumps ? 0 : std::max(options.tolerance, orders * orders * tolerance_of_step(options.tolerance));
   if (defect <= allowed * moved + rounding) return true;
   // Away from where a derivative has no bound a step leads that is nothing beside the whole motion.
-  if (is_cut_ && tau <= roundings_of_motion * epsilon * (until_ - start_)) return true;
+  if (is_cut_ && tau <= roundings_of_motion * epsilon * (until_ - start_) && miss <= bend) {
+    double higher = 0;
+    for (std::size_t k = sizes_.size(); k-- > 3;) higher = (higher + sizes_[k]) * tau;
+    if (higher <= bend) return true;
+  }
   // Forces that cancel have the rounding of their terms.
   return defect <= expansion_.rounding_of_acceleration() * tau * tau;
 }
