@@ -166,3 +166,21 @@ TEST_CASE("a told number is read from the paragraph before, and another last dig
   CHECK(says(Json(1.4e-17), "1e-17"));
   CHECK_FALSE(says(Json(1.6e-17), "1e-17"));
 }
+
+TEST_CASE("a derivative that cancels to rounding is told as 0") {
+  const tests::Folder folder;
+  // Five legs under a table: nothing moves but what is lifted, about a side that symmetry holds.
+  const std::string file = folder.write("a.toml", R"toml(
+[system]
+coordinates = ["z", "p", "r"]
+kinetic = "z'^2/2 + p'^2/2 + r'^2/2"
+potential = "9.81*z"
+[system.constraints]
+"leg[k in 1..5]" = "z + sin(2*pi*k/5)*r + cos(2*pi*k/5)*p >= 0"
+[state]
+position = { z = 0, p = 0, r = 0 }
+)toml");
+  const std::string text = tests::run({"solve", "--sensitivity", file}).out;
+  CHECK(text.find("a unit more of the bound of leg[5]") != std::string::npos);
+  CHECK(text.substr(text.find("What changes")).find("e-1") == std::string::npos);
+}
