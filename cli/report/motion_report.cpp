@@ -92,7 +92,9 @@ std::string motion_json(const FollowedMotion& followed) {
     for (const Index a : motion.excluding()) json.value(constraints[static_cast<std::size_t>(a)]);
     json.end_array();
   }
-  json.key("method").value(mechanics::name(motion.method())).key("t").value(state.t);
+  json.key("method").value(mechanics::name(motion.method()));
+  if (!followed.choice.empty()) json.key("choice").value(followed.choice);
+  json.key("t").value(state.t);
   json.key("position").numbers(coordinates, state.q).key("velocity").numbers(coordinates, state.v);
   const bool is_known = motion.acceleration().size() == state.q.size();
   json.key("acceleration");
@@ -176,6 +178,7 @@ std::string motion_text(const FollowedMotion& followed) {
     text += fmt::format("  … {} more coordinates; --json has them all\n", coordinates - shown_rows);
   text += fmt::format("\nSteps: {}. Events: {}, impacts among them: {}. T + V = {}.\n", record.steps,
                       record.events, record.impacts, number_text(motion.energy()));
+  if (!followed.choice.empty()) text += "Method " + followed.choice + ".\n";
   const double size = record.first_impact ? record.first_impact->kinetic : 0;
   if (record.impacts > 0)
     text += fmt::format("Impacts changed T by {}; the ledger of impulses says {}.\n",

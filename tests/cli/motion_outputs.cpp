@@ -251,3 +251,14 @@ TEST_CASE("a scene with too many contacts to follow each event is stopped at onc
   CHECK(found["why"].get<std::string>().find("time-stepping") != std::string::npos);
   CHECK(run({"simulate", "--json", file, "--method", "time-stepping"}).code == 0);
 }
+
+TEST_CASE("the ordinary choice of auto is told with the motion, and is no warning") {
+  const Folder folder;
+  const std::string file = folder.write("p.toml", pendulum("", "until = 1\nmethod = \"auto\""));
+  const Outcome told = run({"simulate", file});
+  CHECK(told.err.empty());
+  CHECK(told.out.find("Method auto: 1 one-sided constraints, fewer than 300: event-driven") !=
+        std::string::npos);
+  CHECK(MotionJson::parse(run({"simulate", "--json", file}).out)["choice"].get<std::string>().starts_with(
+      "auto: "));
+}
