@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -93,6 +94,48 @@ std::string orbit_text(const std::string& head, const mechanics::LagrangianSyste
   return text;
 }
 
+/// Where t stands in the text of a system, if it does.
+std::optional<convex::Place> place_of_time(const mechanics::LagrangianText& text) {
+  std::vector<const mechanics::Text*> expressions;
+  for (const auto* named : {&text.forces, &text.constraints, &text.definitions})
+    for (const mechanics::NamedText& one : *named) expressions.push_back(&one.value);
+  if (text.potential) expressions.push_back(&*text.potential);
+  expressions.push_back(&text.kinetic);
+  const auto belongs = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (const mechanics::Text* one : expressions)
+    for (std::size_t at = one->text.find('t'); at != std::string::npos; at = one->text.find('t', at + 1))
+      if ((at == 0 || !belongs(one->text[at - 1])) &&
+          (at + 1 == one->text.size() || !belongs(one->text[at + 1])))
+        return one->at(at);
+  return std::nullopt;
+}
+
+/// How to begin nearer to an orbit than from a guess that leads to none.
+std::string how_to_begin(const std::string& file, const OrbitOptions& options) {
+  const std::string until = *options.period == "free" ? "T" : "\"100*(" + *options.period + ")\"";
+  return ". An orbit that attracts is found by following the motion for long, `moreau simulate " + file +
+         " --until " + until +
+         "`, and taking its end for [state]. A coordinate that turns comes back by --modulo; one that drifts "
+         "by "
+         "another amount each period does not come back, and is to be left out of the coordinates";
+}
+
+/// Of how many of the periods asked for the orbit is one already.
+long least_periods(const mechanics::LagrangianSystem& system, const mechanics::Orbit& orbit,
+                   const mechanics::OrbitQuestion& question, long periods) {
+  constexpr double same = 1e-6;
+  for (long part = 1; part <= periods / 2; ++part) {
+    if (periods % part != 0) continue;
+    mechanics::OrbitQuestion shorter = question;
+    shorter.period = question.period * static_cast<double>(part) / static_cast<double>(periods);
+    const mechanics::Orbit found = mechanics::find_orbit(system, orbit.start, shorter);
+    if (found.is_found && (found.start.q - orbit.start.q).norm() <= same * orbit.start.q.norm() &&
+        (found.start.v - orbit.start.v).norm() <= same * orbit.start.v.norm())
+      return part;
+  }
+  return periods;
+}
+
 Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   const Problem problem = read_problem_file(file, options);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
@@ -126,12 +169,23 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     const mechanics::Motion motion(*system, chart.origin(), question.motion);
     orbit = mechanics::find_orbit(*system, guess, question);
   } catch (const InvalidInput& error) {
-    throw InvalidInput(error.what(), error.place().value_or(text->system.kinetic.begin));
+    const auto time = question.is_free ? place_of_time(text->system) : std::nullopt;
+    throw InvalidInput(error.what(), error.place().value_or(time.value_or(text->system.kinetic.begin)));
   }
+  if (orbit.why.starts_with("Newton's method finds no motion")) orbit.why += how_to_begin(file, options);
+  const long least = orbit.is_found && !question.is_free
+                         ? least_periods(*system, orbit, question, options.periods)
+                         : options.periods;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {orbit.is_found ? Exit::solved : Exit::inaccurate,
-          options.json ? orbit_json(file, *system, orbit, seconds) + "\n"
-                       : orbit_text(heading(problem.title, file), *system, orbit)};
+  Answer answer{orbit.is_found ? Exit::solved : Exit::inaccurate,
+                options.json ? orbit_json(file, *system, orbit, seconds) + "\n"
+                             : orbit_text(heading(problem.title, file), *system, orbit)};
+  if (least < options.periods)
+    answer.warnings.push_back(
+        fmt::format("the motion comes back after {} of the {} periods already; give "
+                    "--periods {}",
+                    least, options.periods, least));
+  return answer;
 }
 
 Exit orbit_files(const OrbitOptions& options) {
