@@ -127,9 +127,10 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
       if (std::find(seen.begin(), seen.end(), t.method) != seen.end()) continue;
       seen.push_back(t.method);
       const double error = drawn.multipliers ? t.judgement.multiplier_error : t.judgement.error;
-      table.add({t.method, std::isfinite(t.seconds) ? fmt::format("{:.3g} s", t.seconds) : "-",
-                 digits_text(error),
-                 t.is_right() && exceeds(error, t.setting) ? "few-digits" : verdict_text(t.verdict())});
+      table.add(
+          {t.method, std::isfinite(t.seconds) ? fmt::format("{:.3g} s", t.seconds) : "-", digits_text(error),
+           t.is_right() && !std::isnan(error) && exceeds(error, t.setting) ? "few-digits"
+                                                                           : verdict_text(t.verdict())});
     }
     text += fmt::format("{}: {} coordinates, {} contacts\n{}\n", problem, here.front().n, here.front().m,
                         table.text());
