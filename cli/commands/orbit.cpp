@@ -16,6 +16,7 @@
 #include "cli/motion_settings.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/text_table.hpp"
+#include "cli/resumed_state.hpp"
 #include "cli/scene.hpp"
 #include "mechanics/motion/orbit.hpp"
 #include "mechanics/motion/tangent_chart.hpp"
@@ -113,11 +114,22 @@ std::optional<convex::Place> place_of_time(const mechanics::LagrangianText& text
 /// How to begin nearer to an orbit than from a guess that leads to none.
 std::string how_to_begin(const std::string& file, const OrbitOptions& options) {
   const std::string until = *options.period == "free" ? "T" : "\"100*(" + *options.period + ")\"";
-  return ". An orbit that attracts is found by following the motion for long, `moreau simulate " + file +
+  return ". An orbit that attracts is found from the end of a long motion: `moreau simulate " + file +
          " --until " + until +
-         "`, and taking its end for [state]. A coordinate that turns comes back by --modulo; one that drifts "
-         "by "
-         "another amount each period does not come back, and is to be left out of the coordinates";
+         " --json > end.json`, then --resume end.json here. A coordinate that turns comes back by --modulo; "
+         "one "
+         "that drifts by another amount each period does not come back, and is to be left out of the "
+         "coordinates";
+}
+
+/// The state as one of about the time of the file, whole periods before: along a branch, whose period
+/// changes, a late time would be another phase of the forcing. The time tells nothing where the period is
+/// free (0).
+mechanics::State begun_at(mechanics::State state, double t, double period) {
+  constexpr double roundings = 1e-12;
+  const double later = period > 0 ? state.t - t - period * std::round((state.t - t) / period) : 0;
+  state.t = std::abs(later) <= roundings * std::abs(state.t) ? t : t + later;
+  return state;
 }
 
 /// Of how many of the periods asked for the orbit is one already.
@@ -137,8 +149,8 @@ long least_periods(const mechanics::LagrangianSystem& system, const mechanics::O
 }
 
 Answer orbit_file(const std::string& file, const OrbitOptions& options) {
-  const Problem problem = read_problem_file(file, options);
-  const auto* text = std::get_if<SystemProblem>(&problem.content);
+  Problem problem = read_problem_file(file, options);
+  auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau orbit` takes a file with [system]");
   if (options.method.value_or(problem.simulate.method.value_or("")) == "time-stepping")
     throw InvalidInput("simulate.method: an orbit is followed from event to event; take \"event-driven\"",
@@ -157,6 +169,11 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     if (!(period > 0)) throw InvalidInput("--period " + *options.period + ": not positive; give a time > 0");
     question.period = period * static_cast<double>(options.periods);
   }
+  if (options.resume)
+    text->state =
+        state_text(begun_at(resumed_state(*options.resume, *system), system->state(text->state).t,
+                            question.is_free ? 0 : question.period / static_cast<double>(options.periods)),
+                   *system);
   if (options.output && !options.over)
     throw InvalidInput("--output writes a branch of orbits; give --over \"w=1:0.01:3\" too, or --json");
   if (options.plot && !options.over)
@@ -218,6 +235,8 @@ void add_orbit(CLI::App& program, Work& chosen) {
       .add_option("--plot", options->plot,
                   "the branch of --over as a picture: F.svg, F.png or F.pdf (by gnuplot)")
       ->type_name("FILE");
+  command.add_option("--resume", options->resume, "begin from the state that simulate --json printed")
+      ->type_name("STATE.json");
   add_step_tolerance(command, *options);
 }
 

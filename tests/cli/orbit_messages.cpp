@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -45,6 +48,25 @@ TEST_CASE(
       "[state]\nposition = { x = 0 }\n");
   const Outcome drifts = run({"orbit", file, "--period", "2*pi"});
   CHECK(drifts.code == 3);
-  CHECK(drifts.out.find("--until \"100*(2*pi)\"`, and taking its end for [state]") != std::string::npos);
+  CHECK(drifts.out.find("--until \"100*(2*pi)\" --json > end.json`, then --resume end.json") !=
+        std::string::npos);
   CHECK(drifts.out.find("drifts by another amount each period does not come back") != std::string::npos);
+}
+
+TEST_CASE("an orbit is begun from the end of a motion") {
+  const Folder folder;
+  // Far up, where the spring is not, nothing that comes back is near.
+  std::string far = driven;
+  far.replace(far.find("x^2/2"), 5, "-exp(-x^2)");
+  far.replace(far.find("{ x = 0 }"), 9, "{ x = 0.5 }");
+  const std::string file = folder.write("a.toml", far);
+  const std::string end = folder.write("end.json", run({"simulate", "--json", file, "--until", "60*pi"}).out);
+  const Outcome begun = run({"orbit", "--json", file, "--period", "2*pi/w", "--resume", end});
+  REQUIRE(begun.code == 0);
+  const auto orbit = nlohmann::json::parse(begun.out),
+             motion = nlohmann::json::parse(run({"simulate", "--json", file, "--until", "60*pi"}).out);
+  CHECK(motion["t"].get<double>() > 188);
+  CHECK(orbit["t"] == 0);  // sixty periods before
+  CHECK(std::abs(orbit["position"]["x"].get<double>() - motion["position"]["x"].get<double>()) <= 1e-6);
+  CHECK(run({"orbit", file, "--period", "2*pi/w", "--resume", folder.path("none.json")}).code == 2);
 }
