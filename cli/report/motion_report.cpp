@@ -9,6 +9,8 @@
 #include "cli/report/answer.hpp"
 #include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
+#include "convex/invalid_input.hpp"
+#include "convex/metric.hpp"
 
 namespace cli::inline reports {
 namespace {
@@ -68,6 +70,51 @@ std::vector<mechanics::MotionRemark> all_remarks(const FollowedMotion& followed)
 std::string without_time(const std::string& reason) {
   const std::size_t end = reason.find(": ");
   return reason.starts_with("at t = ") && end != std::string::npos ? reason.substr(end + 2) : reason;
+}
+
+}  // namespace
+
+namespace {
+
+/// Velocities and accelerations at the end as they are to be read: what the forces and the multipliers there
+/// cancel to is 0, and so is a velocity beside what each of them alone would have made in the time.
+struct ReadableEnd {
+  convex::Vector v, acceleration;
+};
+
+/// |A⁻¹z| + Σ |lambda_a A⁻¹u_a|, entry by entry: what the acceleration is the sum of.
+convex::Vector terms_of_acceleration(const mechanics::LagrangianSystem& system,
+                                     const mechanics::Motion& motion) {
+  const mechanics::Inertia inertia = system.inertia(motion.state());
+  const convex::Metric A = convex::Metric::dense(convex::Matrix(inertia.A));
+  convex::Vector terms = A.solve(inertia.z).cwiseAbs();
+  const convex::Vector& lambda = motion.multipliers();
+  std::vector<Index> loaded;
+  for (Index a = 0; a < lambda.size(); ++a)
+    if (lambda[a] != 0) loaded.push_back(a);
+  const convex::SparseRows U = system.contact_rows(motion.state(), loaded).U;
+  for (std::size_t k = 0; k < loaded.size(); ++k)
+    terms += std::abs(lambda[loaded[k]]) *
+             A.solve(convex::Vector(U.row(static_cast<Index>(k)).transpose())).cwiseAbs();
+  return terms;
+}
+
+ReadableEnd readable_end(const FollowedMotion& followed) {
+  constexpr Index most_coordinates = 100;  // of a dense factor that is not noticed
+  const mechanics::Motion& motion = followed.motion;
+  ReadableEnd end{motion.state().v, motion.acceleration()};
+  const Index n = end.v.size();
+  if (n > most_coordinates || end.acceleration.size() != n) return end;
+  try {
+    const convex::Vector terms = terms_of_acceleration(followed.system, motion);
+    for (Index i = 0; i < n; ++i) {
+      end.acceleration[i] = without_rounding(end.acceleration[i], terms[i]);
+      end.v[i] = without_rounding(end.v[i], terms[i] * std::abs(motion.state().t - followed.begin));
+    }
+  } catch (const convex::InvalidInput&) {
+    return end;  // the motion ends where the expressions do
+  }
+  return end;
 }
 
 }  // namespace
@@ -166,12 +213,13 @@ std::string motion_text(const FollowedMotion& followed) {
   }
   TextTable end({"", "q", "q'", "q''"});
   const bool is_known = motion.acceleration().size() == state.q.size();
+  const ReadableEnd read = readable_end(followed);
   const std::size_t coordinates = followed.system.coordinates().size();
   constexpr auto shown_rows = static_cast<std::size_t>(most_rows);
   for (std::size_t i = 0; i < std::min(coordinates, shown_rows); ++i) {
     const auto k = static_cast<Index>(i);
-    end.add({followed.system.coordinates()[i], number_text(state.q[k]), number_text(state.v[k]),
-             is_known ? number_text(motion.acceleration()[k]) : "-"});
+    end.add({followed.system.coordinates()[i], number_text(state.q[k]), number_text(read.v[k]),
+             is_known ? number_text(read.acceleration[k]) : "-"});
   }
   text += end.text();
   if (coordinates > shown_rows)

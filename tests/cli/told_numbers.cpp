@@ -184,3 +184,28 @@ position = { z = 0, p = 0, r = 0 }
   CHECK(text.find("a unit more of the bound of leg[5]") != std::string::npos);
   CHECK(text.substr(text.find("What changes")).find("e-1") == std::string::npos);
 }
+
+TEST_CASE("what stands still at the end of a motion has the velocity and the acceleration 0 in words") {
+  const tests::Folder folder;
+  // A toggle pressed against its stop: a hundred newtons cancel.
+  const std::string file = folder.write("a.toml", R"toml(
+[system]
+coordinates = ["a", "b", "x"]
+kinetic = "J/2*(a'^2+b'^2) + m/2*x'^2"
+parameters = { J = 0.01, m = 1, r = 0.1, l = 0.2, k = 5000, x0 = 0.28, M = -3 }
+potential = "k/2*max(x - x0, 0)^2"
+[system.forces]
+a = "M"
+[system.constraints]
+horiz = "r*cos(a) + l*cos(b) = x"
+vert = "r*sin(a) + l*sin(b) = 0"
+stop = "a >= -0.02"
+[state]
+position = { a = 0.5, b = -0.2, x = 0.28 }
+in_contact = []
+)toml");
+  const std::string text = tests::run({"simulate", file, "--until", "0.5"}).out,
+                    table = text.substr(text.find("q''"), text.find("Steps:") - text.find("q''"));
+  for (const char* row : {"a       -0.02    0     0", "x     0.29997    0     0"})
+    CHECK(table.find(row) != std::string::npos);
+}
