@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/commands/fewest_periods.hpp"
 #include "cli/commands/orbit_branch.hpp"
 #include "cli/each_file.hpp"
 #include "cli/json_writer.hpp"
@@ -132,22 +133,6 @@ mechanics::State begun_at(mechanics::State state, double t, double period) {
   return state;
 }
 
-/// Of how many of the periods asked for the orbit is one already.
-long least_periods(const mechanics::LagrangianSystem& system, const mechanics::Orbit& orbit,
-                   const mechanics::OrbitQuestion& question, long periods) {
-  constexpr double same = 1e-6;
-  for (long part = 1; part <= periods / 2; ++part) {
-    if (periods % part != 0) continue;
-    mechanics::OrbitQuestion shorter = question;
-    shorter.period = question.period * static_cast<double>(part) / static_cast<double>(periods);
-    const mechanics::Orbit found = mechanics::find_orbit(system, orbit.start, shorter);
-    if (found.is_found && (found.start.q - orbit.start.q).norm() <= same * orbit.start.q.norm() &&
-        (found.start.v - orbit.start.v).norm() <= same * orbit.start.v.norm())
-      return part;
-  }
-  return periods;
-}
-
 Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   Problem problem = read_problem_file(file, options);
   auto* text = std::get_if<SystemProblem>(&problem.content);
@@ -190,18 +175,18 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     throw InvalidInput(error.what(), error.place().value_or(time.value_or(text->system.kinetic.begin)));
   }
   if (orbit.why.starts_with("Newton's method finds no motion")) orbit.why += how_to_begin(file, options);
-  const long least = orbit.is_found && !question.is_free
-                         ? least_periods(*system, orbit, question, options.periods)
-                         : options.periods;
+  const long fewest = orbit.is_found && !question.is_free
+                          ? fewest_periods(*system, orbit, question, options.periods)
+                          : options.periods;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Answer answer{orbit.is_found ? Exit::solved : Exit::inaccurate,
                 options.json ? orbit_json(file, *system, orbit, seconds) + "\n"
                              : orbit_text(heading(problem.title, file), *system, orbit)};
-  if (least < options.periods)
+  if (fewest < options.periods)
     answer.warnings.push_back(
         fmt::format("the motion comes back after {} of the {} periods already; give "
                     "--periods {}",
-                    least, options.periods, least));
+                    fewest, options.periods, fewest));
   return answer;
 }
 

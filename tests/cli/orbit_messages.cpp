@@ -31,6 +31,8 @@ TEST_CASE("an orbit that comes back after a part of the periods asked for is tol
   CHECK(three.code == 0);
   CHECK(three.err.find("comes back after 1 of the 3 periods already; give --periods 1") != std::string::npos);
   CHECK(run({"orbit", file, "--period", "2*pi/w"}).err.empty());
+  const Outcome branch = run({"orbit", file, "--period", "2*pi/w", "--periods", "2", "--over", "w=2:0.5:3"});
+  CHECK(branch.err.find("come back after 1 of the 2 periods already; give --periods 1") != std::string::npos);
 }
 
 TEST_CASE("t that stands in the way of a free period is told where it stands") {
