@@ -1,5 +1,7 @@
 #include "cli/resumed_state.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -52,6 +54,18 @@ mechanics::State resumed_state(const std::string& file, const mechanics::System&
     throw InvalidInput(where + ": no time \"t\"; give what `moreau simulate --json` printed");
   return {t->get<double>(), numbers_by_coordinate(whole, "position", system, where),
           numbers_by_coordinate(whole, "velocity", system, where)};
+}
+
+mechanics::StateText state_text(const mechanics::State& state, const mechanics::System& system) {
+  mechanics::StateText text;
+  text.t = mechanics::Text{fmt::format("{}", state.t), {}};
+  for (std::size_t i = 0; i < system.coordinates().size(); ++i) {
+    const mechanics::Text name{system.coordinates()[i], {}};
+    const auto k = static_cast<Index>(i);
+    text.position.push_back({name, {fmt::format("{}", state.q[k]), {}}});
+    text.velocity.push_back({name, {fmt::format("{}", state.v[k]), {}}});
+  }
+  return text;
 }
 
 }  // namespace cli

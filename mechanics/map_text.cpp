@@ -1,6 +1,7 @@
 #include "mechanics/map_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "mechanics/expression/exact_jet.hpp"
@@ -30,6 +31,7 @@ class MapExpressions {
     }
     for (std::size_t i = 0; i < n_; ++i) {
       const Source& source = sources_.add(components[i], "component " + std::to_string(i + 1));
+      refuse_more_coordinates(source, components[i].text);
       nodes_.push_back(expansion_.node(parse_expression(source, {&names_, Vocabulary::system, {}}), {}));
       if ((tape_.depends(nodes_.back()) & (on_time | on_velocities)) != 0)
         source.fail(0, "it uses t or a time derivative; a map is one of points, write it in its coordinates");
@@ -48,6 +50,27 @@ class MapExpressions {
   }
   MapExpressions(const MapExpressions&) = delete;
   MapExpressions& operator=(const MapExpressions&) = delete;
+
+  /// "x3" of two components is no slip of x1: there is a coordinate for each component.
+  void refuse_more_coordinates(const Source& source, const std::string& text) const {
+    const auto belongs = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (std::size_t at = 0; at < text.size(); ++at) {
+      if (text[at] != 'x' || (at > 0 && belongs(text[at - 1]))) continue;
+      std::size_t end = at + 1;
+      while (end < text.size() && belongs(text[end])) ++end;
+      const std::string number = text.substr(at + 1, end - at - 1);
+      const bool is_index =
+          !number.empty() && number.size() < 9 && number[0] != '0' &&
+          std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (!is_index || (n_ > 1 && std::stoul(number) <= n_)) continue;
+      const std::string last = "x" + std::to_string(n_);
+      source.fail(at, "\"x" + number + "\" is unknown: " +
+                          (n_ == 1   ? std::string("one component has x")
+                           : n_ == 2 ? std::string("two components have x1 and x2")
+                                     : std::to_string(n_) + " components have x1 to " + last) +
+                          "; a map has as many components as coordinates");
+    }
+  }
 
   std::optional<convex::MapImage> at(const convex::ExactVector& z) const {
     ExactState state{Number(0), {}, {}};

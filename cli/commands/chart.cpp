@@ -126,9 +126,11 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
     for (const Trial& t : ranked(here)) {
       if (std::find(seen.begin(), seen.end(), t.method) != seen.end()) continue;
       seen.push_back(t.method);
-      table.add({t.method, std::isfinite(t.seconds) ? fmt::format("{:.3g} s", t.seconds) : "-",
-                 digits_text(drawn.multipliers ? t.judgement.multiplier_error : t.judgement.error),
-                 verdict_text(t.verdict())});
+      const double error = drawn.multipliers ? t.judgement.multiplier_error : t.judgement.error;
+      table.add(
+          {t.method, std::isfinite(t.seconds) ? fmt::format("{:.3g} s", t.seconds) : "-", digits_text(error),
+           t.is_right() && !std::isnan(error) && exceeds(error, t.setting) ? "few-digits"
+                                                                           : verdict_text(t.verdict())});
     }
     text += fmt::format("{}: {} coordinates, {} contacts\n{}\n", problem, here.front().n, here.front().m,
                         table.text());

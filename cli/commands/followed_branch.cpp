@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cli/commands/fewest_periods.hpp"
 #include "cli/measurement/progress.hpp"
 #include "cli/motion_settings.hpp"
 #include "mechanics/motion/orbit_section.hpp"
@@ -55,7 +56,7 @@ std::string FollowedBranch::follow() {
       begin(*next);
       continue;
     }
-    if (next && comes_back_sooner(*next) && !comes_back_sooner(*last_))
+    if (next && periods_of(*next) < options_.periods && periods_of(*last_) == options_.periods)
       return fmt::format(
           "the branch ends between {} = {} and {}, in the flip of an orbit of fewer periods; for that one "
           "give a "
@@ -217,22 +218,9 @@ std::optional<FollowedBranch::Station> FollowedBranch::attempt_from_last(double 
   return found;
 }
 
-bool FollowedBranch::comes_back_sooner(const Station& at) const {
-  const double T = at.orbit.period, t = at.orbit.start.t;
-  for (long k = 2; k <= options_.periods; ++k) {
-    if (options_.periods % k != 0) continue;
-    const Station later = moved(at, t + T / static_cast<double>(k));
-    double away = (later.orbit.start.v - at.orbit.start.v).norm();
-    for (convex::Index i = 0; i < later.orbit.start.q.size(); ++i) {
-      const double turn = asked_.modulo.size() > 0 ? asked_.modulo[i] : 0;
-      double gone = later.orbit.start.q[i] - at.orbit.start.q[i];
-      if (turn > 0) gone -= turn * std::round(gone / turn);
-      away = std::hypot(away, gone);
-    }
-    constexpr double one_orbit = 1e-8;
-    if (away <= one_orbit * std::hypot(at.orbit.start.q.norm(), at.orbit.start.v.norm())) return true;
-  }
-  return false;
+long FollowedBranch::periods_of(const Station& at) const {
+  const auto system = family().system(at.value);
+  return fewest_periods(*system, at.orbit, question(*system, at.value), options_.periods);
 }
 
 void FollowedBranch::row(const Station& at, BranchEvent event) {
@@ -256,6 +244,10 @@ void FollowedBranch::begin(const Station& first) {
   if (const auto fold = mechanics::find_turning_point(family(), first.value, first.orbit))
     if (std::abs(fold->value - first.value) <= at_fold * std::abs(range_.step)) event = BranchEvent::fold;
   row(first, event);
+  if (const long fewest = periods_of(first); fewest < options_.periods)
+    remarks_.push_back(
+        fmt::format("its orbits come back after {} of the {} periods already; give --periods {}", fewest,
+                    options_.periods, fewest));
   last_ = first;
   ++count_;
   choose_instant();

@@ -68,8 +68,8 @@ class FollowedBranch {
   std::optional<Station> attempt_from_last(double value, int depth = 0);
   static constexpr int deepest = 8;
 
-  /// Whether an orbit of several periods comes back in fewer.
-  bool comes_back_sooner(const Station&) const;
+  /// After how many of the periods asked for an orbit comes back.
+  long periods_of(const Station&) const;
 
   void row(const Station& at, BranchEvent event);
 

@@ -152,6 +152,7 @@ SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& requ
   std::vector<Point> points;
   for (const std::string& probe : request.probes) points.push_back(probe_point(text, probe));
   const mechanics::liquid::LiquidAccuracy accuracy{request.tolerance, request.certify};
+  solved.asked = accuracy.part();
   if (request.onset) mechanics::liquid::parameter_value(text, *request.onset);
   if (request.velocity && !request.plot)
     throw InvalidInput("--velocity goes with --plot; give a picture to draw it in");
@@ -260,6 +261,32 @@ std::vector<std::string> liquid_warnings(const SolvedLiquid& solved) {
   return lines;
 }
 
+namespace {
+
+/// ", 0.3 % of the largest": the error beside what it is of.
+std::string of_largest(const LiquidSolution& found) {
+  return found.largest > 0 && found.error_bound > 0
+             ? fmt::format(", {:.2g} % of the largest", 100 * found.error_bound / found.largest)
+             : "";
+}
+
+/// What was asked for, what was reached, and what to do.
+std::string missed_text(const SolvedLiquid& solved) {
+  const LiquidSolution& found = solved.solution;
+  std::string text = fmt::format("The accuracy asked for, {:.2g} % of the largest pressure, was not met",
+                                 100 * solved.asked);
+  if (std::isfinite(found.error_bound) && found.largest > 0) {
+    const double reached = found.error_bound / found.largest,
+                 digit = std::pow(10, std::floor(std::log10(reached)));
+    text += fmt::format("; --tolerance {:g} is met", std::ceil(reached / digit) * digit);
+    text += solved.scene.cells ? ", and more cells, or none told, come nearer"
+                               : ", and [liquid] cells tells a finer grid";
+  }
+  return text + ".\n";
+}
+
+}  // namespace
+
 std::string liquid_text(const SolvedLiquid& solved) {
   const LiquidSolution& found = solved.solution;
   const std::vector<std::string>& names = solved.scene.coordinates;
@@ -297,19 +324,15 @@ std::string liquid_text(const SolvedLiquid& solved) {
     text += found.method == "grid"
                 ? "One grid alone tells no error; give a number of cells that can be halved.\n"
                 : "What h sums up to is not known: it has no bound on a part of the line.\n";
-  if (found.status == Status::inaccurate) {
-    text += "The accuracy asked for was not met";
-    if (solved.scene.cells && std::isfinite(found.error_bound))
-      text += "; give more cells, a larger --tolerance (of the largest p), or leave cells out";
-    text += ".\n";
-  }
+  if (found.status == Status::inaccurate) text += missed_text(solved);
   if (solved.level == "enclosure")
     return text + fmt::format(
                       "Method {}, {} unknowns. Proved: p is within {:.1e} of that of the scene as written.\n",
                       found.method, found.unknowns, found.error_bound);
   text += fmt::format("Method {}, {} unknowns; ", found.method, found.unknowns);
-  return text + (std::isinf(found.error_bound) ? "how near p is, is not known.\n"
-                                               : fmt::format("p is known to {:.1e}.\n", found.error_bound));
+  return text + (std::isinf(found.error_bound)
+                     ? "how near p is, is not known.\n"
+                     : fmt::format("p is known to {:.1e}{}.\n", found.error_bound, of_largest(found)));
 }
 
 }  // namespace cli::inline commands

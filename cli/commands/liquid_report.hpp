@@ -32,6 +32,7 @@ struct SolvedLiquid {
   std::optional<std::string> onset_of;
   mechanics::liquid::OnsetSearch onset;
   std::string level = "estimate";  ///< of the certificate
+  double asked = 0;                ///< the error asked for, as a part of the largest pressure
   double seconds = 0;
 
   Exit exit() const;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/commands/fewest_periods.hpp"
 #include "cli/commands/orbit_branch.hpp"
 #include "cli/each_file.hpp"
 #include "cli/json_writer.hpp"
@@ -15,6 +17,7 @@
 #include "cli/motion_settings.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/text_table.hpp"
+#include "cli/resumed_state.hpp"
 #include "cli/scene.hpp"
 #include "mechanics/motion/orbit.hpp"
 #include "mechanics/motion/tangent_chart.hpp"
@@ -93,9 +96,46 @@ std::string orbit_text(const std::string& head, const mechanics::LagrangianSyste
   return text;
 }
 
+/// Where t stands in the text of a system, if it does.
+std::optional<convex::Place> place_of_time(const mechanics::LagrangianText& text) {
+  std::vector<const mechanics::Text*> expressions;
+  for (const auto* named : {&text.forces, &text.constraints, &text.definitions})
+    for (const mechanics::NamedText& one : *named) expressions.push_back(&one.value);
+  if (text.potential) expressions.push_back(&*text.potential);
+  expressions.push_back(&text.kinetic);
+  const auto belongs = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (const mechanics::Text* one : expressions)
+    for (std::size_t at = one->text.find('t'); at != std::string::npos; at = one->text.find('t', at + 1))
+      if ((at == 0 || !belongs(one->text[at - 1])) &&
+          (at + 1 == one->text.size() || !belongs(one->text[at + 1])))
+        return one->at(at);
+  return std::nullopt;
+}
+
+/// How to begin nearer to an orbit than from a guess that leads to none.
+std::string how_to_begin(const std::string& file, const OrbitOptions& options) {
+  const std::string until = *options.period == "free" ? "T" : "\"100*(" + *options.period + ")\"";
+  return ". An orbit that attracts is found from the end of a long motion: `moreau simulate " + file +
+         " --until " + until +
+         " --json > end.json`, then --resume end.json here. A coordinate that turns comes back by --modulo; "
+         "one "
+         "that drifts by another amount each period does not come back, and is to be left out of the "
+         "coordinates";
+}
+
+/// The state as one of about the time of the file, whole periods before: along a branch, whose period
+/// changes, a late time would be another phase of the forcing. The time tells nothing where the period is
+/// free (0).
+mechanics::State begun_at(mechanics::State state, double t, double period) {
+  constexpr double roundings = 1e-12;
+  const double later = period > 0 ? state.t - t - period * std::round((state.t - t) / period) : 0;
+  state.t = std::abs(later) <= roundings * std::abs(state.t) ? t : t + later;
+  return state;
+}
+
 Answer orbit_file(const std::string& file, const OrbitOptions& options) {
-  const Problem problem = read_problem_file(file, options);
-  const auto* text = std::get_if<SystemProblem>(&problem.content);
+  Problem problem = read_problem_file(file, options);
+  auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau orbit` takes a file with [system]");
   if (options.method.value_or(problem.simulate.method.value_or("")) == "time-stepping")
     throw InvalidInput("simulate.method: an orbit is followed from event to event; take \"event-driven\"",
@@ -114,6 +154,11 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     if (!(period > 0)) throw InvalidInput("--period " + *options.period + ": not positive; give a time > 0");
     question.period = period * static_cast<double>(options.periods);
   }
+  if (options.resume)
+    text->state =
+        state_text(begun_at(resumed_state(*options.resume, *system), system->state(text->state).t,
+                            question.is_free ? 0 : question.period / static_cast<double>(options.periods)),
+                   *system);
   if (options.output && !options.over)
     throw InvalidInput("--output writes a branch of orbits; give --over \"w=1:0.01:3\" too, or --json");
   if (options.plot && !options.over)
@@ -126,12 +171,23 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     const mechanics::Motion motion(*system, chart.origin(), question.motion);
     orbit = mechanics::find_orbit(*system, guess, question);
   } catch (const InvalidInput& error) {
-    throw InvalidInput(error.what(), error.place().value_or(text->system.kinetic.begin));
+    const auto time = question.is_free ? place_of_time(text->system) : std::nullopt;
+    throw InvalidInput(error.what(), error.place().value_or(time.value_or(text->system.kinetic.begin)));
   }
+  if (orbit.why.starts_with("Newton's method finds no motion")) orbit.why += how_to_begin(file, options);
+  const long fewest = orbit.is_found && !question.is_free
+                          ? fewest_periods(*system, orbit, question, options.periods)
+                          : options.periods;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {orbit.is_found ? Exit::solved : Exit::inaccurate,
-          options.json ? orbit_json(file, *system, orbit, seconds) + "\n"
-                       : orbit_text(heading(problem.title, file), *system, orbit)};
+  Answer answer{orbit.is_found ? Exit::solved : Exit::inaccurate,
+                options.json ? orbit_json(file, *system, orbit, seconds) + "\n"
+                             : orbit_text(heading(problem.title, file), *system, orbit)};
+  if (fewest < options.periods)
+    answer.warnings.push_back(
+        fmt::format("the motion comes back after {} of the {} periods already; give "
+                    "--periods {}",
+                    fewest, options.periods, fewest));
+  return answer;
 }
 
 Exit orbit_files(const OrbitOptions& options) {
@@ -164,6 +220,8 @@ void add_orbit(CLI::App& program, Work& chosen) {
       .add_option("--plot", options->plot,
                   "the branch of --over as a picture: F.svg, F.png or F.pdf (by gnuplot)")
       ->type_name("FILE");
+  command.add_option("--resume", options->resume, "begin from the state that simulate --json printed")
+      ->type_name("STATE.json");
   add_step_tolerance(command, *options);
 }
 

@@ -15,6 +15,7 @@ struct OrbitOptions : FileOptions, MotionChoice {
   std::optional<std::string> over;  ///< "w=1:0.01:3"
   std::vector<std::string> modulo;  ///< "a=2*pi"
   std::optional<std::string> output, plot;
+  std::optional<std::string> resume;  ///< a file with the state to begin from
 };
 
 /// `orbit --over w=1:0.01:3`: the orbit of each value from that of the one before, as a table with the

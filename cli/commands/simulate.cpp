@@ -201,7 +201,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   mechanics::Motion& motion = *begun;
 
   MotionFiles files(problem, *system, state.t, until, options);
-  FollowedMotion followed{file, problem.title, *system, motion, {}, until, false, 0, {}};
+  FollowedMotion followed{file, problem.title, *system, motion, {}, until, false, 0, {}, state.t, {}};
+  if (way.is_open) followed.choice = way.why;
   const auto remember = [&] {
     for (const mechanics::MotionEvent& event : motion.events())
       if (followed.first_events.size() < events_in_text) followed.first_events.push_back(event);
@@ -232,7 +233,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
-  for (const std::string& said : {way.why, of_crowd})
+  for (const std::string& said : {followed.choice.empty() ? way.why : "", of_crowd})
     if (!said.empty()) answer.warnings.push_back(said);
   return answer;
 }

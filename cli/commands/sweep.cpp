@@ -78,7 +78,8 @@ struct SweepSummary {
   std::size_t points = 0, without_answer = 0;
   Exit exit = Exit::solved;
   std::vector<std::pair<double, std::string>> changes;  ///< and what persists there
-  std::string first_message;
+  std::string first_without;                            ///< which point it is, and why it has no answer
+  std::vector<SweepPoint> rows;                         ///< where no table is written
 };
 
 class Sweep {
@@ -128,6 +129,7 @@ class Sweep {
   const SweepRecord& record() const { return record_; }
   const std::vector<SweepRange>& ranges() const { return ranges_; }
   const std::vector<Watched>& watched() const { return watched_; }
+  const SweepTable& table() const { return *table_; }
   const std::vector<std::string>& constraints() { return workers_.front().constraints(); }
 
  private:
@@ -220,10 +222,11 @@ class Sweep {
     summary_.exit = std::max(summary_.exit, point.exit);
     if (!point.has_answer()) {
       ++summary_.without_answer;
-      if (summary_.first_message.empty()) summary_.first_message = point.message;
+      if (summary_.without_answer == 1) summary_.first_without = table_->without_answer(point);
     }
     if (point.is_change) summary_.changes.emplace_back(point.at[0], table_->active(point));
     if (options_.plot) record_.add(point);
+    if (options_.json && !options_.output) summary_.rows.push_back(point);
     const std::string row = table_->row(point);
     if (file_.is_open())
       file_ << row;
@@ -244,7 +247,7 @@ class Sweep {
   SweepRecord record_;
 };
 
-std::string summary_json(const SweepSummary& summary, const SweepOptions& options) {
+std::string summary_json(const SweepSummary& summary, const SweepTable& table, const SweepOptions& options) {
   JsonWriter json;
   json.begin_object().key("file").value(options.file).key("status");
   json.value(summary.without_answer > 0         ? "incomplete"
@@ -255,7 +258,13 @@ std::string summary_json(const SweepSummary& summary, const SweepOptions& option
   json.key("changes").begin_array();
   for (const auto& [value, active] : summary.changes)
     json.begin_object().key("value").value(value).key("active").value(active).end_object();
-  return json.end_array().end_object().text() + "\n";
+  json.end_array();
+  if (!options.output) {
+    json.key("table").begin_array();
+    for (const SweepPoint& point : summary.rows) table.write(json, point);
+    json.end_array();
+  }
+  return json.end_object().text() + "\n";
 }
 
 std::string summary_text(const SweepSummary& summary) {
@@ -286,13 +295,16 @@ Exit sweep(const SweepOptions& options) {
     draw(*options.plot,
          sweep_drawing(sweep.record(), sweep.ranges(), sweep.watched(), sweep.constraints(), title));
   if (options.json)
-    fmt::print("{}", summary_json(summary, options));
+    fmt::print("{}", summary_json(summary, sweep.table(), options));
   else if (options.output && !options.quiet)
     fmt::print("{}", summary_text(summary));
   std::fflush(stdout);
-  if (!summary.first_message.empty())
-    fmt::print(stderr, "moreau: {}: {} points have no answer, the first because of: {}\n", options.file,
-               summary.without_answer, summary.first_message);
+  if (summary.without_answer > 0)
+    fmt::print(stderr, "moreau: {}: {}{}\n", options.file,
+               summary.without_answer == 1
+                   ? std::string("1 point has no answer, ")
+                   : fmt::format("{} points have no answer, the first ", summary.without_answer),
+               summary.first_without);
   return summary.exit;
 }
 

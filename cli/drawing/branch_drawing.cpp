@@ -119,10 +119,10 @@ std::string panel_curves(const BranchPanel& panel, bool has_stable, bool has_uns
       add(fmt::format("$stable using 1:{} with {} lc rgb \"{}\" lw 2 title {}", column, marked,
                       curve_colour(k), quoted(panel.names[k])));
     if (has_unstable)
-      add(fmt::format("$unstable using 1:{} with {} lc rgb \"{}\" lw 1.6 dt 2 title {}", column, marked,
+      add(fmt::format("$unstable using 1:{} with {} lc rgb \"{}\" lw 1.6 dt (6,4) title {}", column, marked,
                       curve_colour(k), quoted(panel.names[k] + ", unstable")));
     for (const auto& [event, marker] : events)
-      add(fmt::format("${} using 1:{} with points pt {} ps 1.1 lw 1.5 lc rgb \"#222222\" {}", event, column,
+      add(fmt::format("${} using 1:{} with points pt {} ps 0.8 lw 1.2 lc rgb \"#222222\" {}", event, column,
                       marker, k == 0 ? "title " + quoted(event) : "notitle"));
   }
   return text + left_out_in_key(panel.left_out) + "\n";
@@ -153,6 +153,8 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
     q.names.push_back(coordinates[i]);
     v.names.push_back(coordinates[i] + "'");
   }
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+    if (passes_an_impact(points[k].orbit, points[k + 1].orbit)) v.label = "q'; gaps: an impact passes t";
   const std::array panels{q, v, multiplier};
   std::array<DrawnRange, panels.size()> ranges;  // that of the multiplier, on its scale, is not asked for
   for (const BranchPoint& point : points)

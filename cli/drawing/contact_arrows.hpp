@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "cli/drawing/drawn_scene.hpp"
+#include "cli/drawing/drawn_places.hpp"
 #include "mechanics/system.hpp"
 
 namespace cli::inline drawings {
@@ -16,8 +16,10 @@ struct ContactArrow {
 };
 
 /// Where the forces of contacts act. The reaction lambda u of a contact is a force of the coordinates; it
-/// acts on places p_1, p_2, … that are drawn if u = Σ (∂p_i/∂q)ᵀ F_i, which is tried with one place and with
-/// two. On the centre of a circle the arrow begins at the rim.
+/// acts on a place p that is drawn if u = (∂p/∂q)ᵀ F, and on two if u = Σ (∂p_i/∂q)ᵀ F_i with F_1 = -F_2 in
+/// the line of both, or with forces of one size on bodies that share no coordinate. On the centre of a circle
+/// the arrow begins at the rim. The moment of a stop that is about an angle has no place, unless the
+/// mechanism is drawn to touch something there that stands still.
 class ContactArrows {
  public:
   ContactArrows(const mechanics::System&, const DrawnScene&);
@@ -31,18 +33,18 @@ class ContactArrows {
   Drawn at(const mechanics::State&, const convex::Vector& values, const convex::Vector& lambda);
 
  private:
-  struct Place {
-    convex::Index x, y, radius;  ///< where in the values; radius -1 for none
-  };
-  using Places = std::vector<std::size_t>;
-  std::optional<convex::Vector> forces(const convex::Vector& u, const convex::SparseRows& J,
-                                       const Places&) const;
-  Places places_of(const convex::Vector& u, const mechanics::State&) const;
+  using Spot = PlacesOfScene::Spot;
+  convex::Vector gradient(convex::Index constraint, const mechanics::State&) const;
+  bool is_about_angle(convex::Index constraint, const convex::Vector& u, const DrawnPlace&, const Spot&,
+                      const mechanics::State&) const;
+  bool fits_nearby(convex::Index constraint, const DrawnPlace&, const mechanics::State&) const;
+  DrawnPlaces places_of(convex::Index constraint, const convex::Vector& u, const DrawnPlaces& near,
+                        const mechanics::State&, const convex::Vector& values) const;
 
   const mechanics::System& system_;
   const DrawnScene& scene_;
-  std::vector<Place> places_;
-  std::vector<std::optional<Places>> found_;  // by constraint, once it has pushed
+  PlacesOfScene places_;
+  std::vector<std::optional<DrawnPlaces>> found_;  // by constraint, once it has pushed
 };
 
 }  // namespace cli::inline drawings

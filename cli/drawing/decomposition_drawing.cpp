@@ -166,28 +166,39 @@ void draw_rows(LabelledPage& page, const SolvedScene& solved, const PlaneSection
     if (!page.label(anchors, {name}, "#00507d")) elsewhere.push_back(name);
 }
 
-std::string heading_of(const SolvedScene& solved, const PlaneSection& section, bool ellipses,
-                       const std::vector<std::string>& elsewhere, PageArea area) {
+std::string heading_of(const SolvedScene& solved, const PlaneSection& section,
+                       const std::vector<std::string>& notes, const std::vector<std::string>& elsewhere,
+                       PageArea area) {
   const bool is_beside = area.page_width > page_size;
   const Scene& scene = solved.scene;
-  std::string below, missing;
-  const auto say = [&](const std::string& words) { below += (below.empty() ? "" : "; ") + words; };
-  if (!elsewhere.empty()) missing = "outside of the picture: " + listed(elsewhere);
+  std::vector<std::string> below;
+  if (scene.problem.dimension() > 2)
+    below.push_back("plane of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])] + "'' and " +
+                    scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the rest held");
+  below.insert(below.end(), notes.begin(), notes.end());
+  // Beside the mechanism, which has its name.
+  if (is_beside && below.empty()) below.emplace_back("accelerations");
+  if (!elsewhere.empty()) below.push_back("outside of the picture: " + listed(elsewhere));
   std::vector<std::string> unseen;
   for (const Index row : section.without_line) unseen.push_back(scene.contact_name(row));
   if (!unseen.empty())
-    missing += std::string(missing.empty() ? "" : "; ") + (unseen.size() == 1 ? "does" : "do") +
-               " not show in this plane: " + listed(unseen);
-  if (scene.problem.dimension() > 2)
-    say("plane of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])] + "'' and " +
-        scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the rest held");
-  if (ellipses) say("ellipses: circles of the kinetic metric");
-  // Beside the mechanism, which has its name, there is room for two lines.
-  if (is_beside && below.empty()) below = "accelerations";
-  const std::string name =
-      is_beside ? "" : heading_line(scene.title.empty() ? scene.file : scene.title, area.title_room());
-  return name + (below.empty() || is_beside ? "" : "\n") + heading_line(below, area.title_room()) +
-         (missing.empty() ? "" : "\n" + heading_line(missing, area.title_room()));
+    below.push_back((unseen.size() == 1 ? "does" : "do") + (" not show in this plane: " + listed(unseen)));
+  const std::string name = heading_line(scene.title.empty() ? scene.file : scene.title, area.title_room());
+  const std::string lines = heading_lines(below, area.title_room());
+  return is_beside ? lines : name + (below.empty() ? "" : "\n" + lines);
+}
+
+/// One unit of the first acceleration is as long as one of the second times this, in the kinetic metric: a
+/// length and an angle have no scale in common, and kinetic energy gives them one.
+Point metric_unit(const PlaneSection& section) { return {1, std::sqrt(section.A(0, 0) / section.A(1, 1))}; }
+
+PlaneSection in_units(PlaneSection section, const Point& unit) {
+  section.A = unit.asDiagonal() * section.A * unit.asDiagonal();
+  section.free = section.free.cwiseQuotient(unit);
+  section.truth = section.truth.cwiseQuotient(unit);
+  if (section.classical) section.classical = section.classical->cwiseQuotient(unit);
+  for (PlaneSection::Row& row : section.rows) row.u = row.u.cwiseProduct(unit);
+  return section;
 }
 
 }  // namespace
@@ -195,7 +206,9 @@ std::string heading_of(const SolvedScene& solved, const PlaneSection& section, b
 Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std::string>& plane,
                               PageArea area) {
   const Scene& scene = solved.scene;
-  const PlaneSection section = plane_section(solved, plane);
+  const PlaneSection asked = plane_section(solved, plane);
+  const Point unit = metric_unit(asked);
+  const PlaneSection section = in_units(asked, unit);
   const Point &free = section.free, &x = section.truth;
   const double radius = std::sqrt((x - free).dot(section.A * (x - free)));
   const double size = std::sqrt(free.dot(section.A * free) + x.dot(section.A * x));
@@ -211,7 +224,7 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
   if (near) shown.push_back(*section.classical);
   const PageWindow window(shown, fallback_size(section));
 
-  LabelledPage page(window, area);
+  LabelledPage page(window, area, unit);
   const Polygon admissible = admissible_part(section, window);
   Polygon generators;
   for (const PlaneSection::Row& row : section.rows) {
@@ -262,10 +275,16 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
     for (const Point& p : admissible) middle += p / static_cast<double>(admissible.size());
     page.label({middle, (2 * middle + x) / 3}, words.allowed, "#00507d");
   }
-  return {page.script("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])],
+  std::vector<std::string> notes;
+  constexpr double round = 1e-9;
+  if (moved)
+    notes.emplace_back(std::abs(section.A(0, 1)) <= round * section.A(0, 0)
+                           ? "circles: those of the kinetic metric"
+                           : "ellipses: circles of the kinetic metric");
+  if (admissible.size() == 1) notes.emplace_back("A⁻¹C is the point q'' alone");
+  return page.drawing("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])],
                       "acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[1])],
-                      heading_of(solved, section, moved, elsewhere, area)),
-          page_size, area.page_width};
+                      heading_of(solved, section, notes, elsewhere, area));
 }
 
 }  // namespace cli::inline drawings

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 namespace cli::inline drawings {
 namespace {
 
-constexpr double line_height = 1.25;  ///< over the font size
-constexpr double clearance = 3;       ///< of the words from what they had better not lie on, in pixels
-constexpr double impossible = 1e9;    ///< on another label, or out of the frame
-constexpr double line_cost = 60;      ///< of lying on a line, in pixels of distance
+constexpr double heading_letters = 11;  ///< pixels an em
+constexpr double line_height = 1.25;    ///< over the font size
+constexpr double clearance = 3;         ///< of the words from what they had better not lie on, in pixels
+constexpr double impossible = 1e9;      ///< on another label, or out of the frame
+constexpr double line_cost = 60;        ///< of lying on a line, in pixels of distance
 constexpr double faint_line_cost = 10;
 constexpr double parted_cost = 40;   ///< of a line between the label and what it names
 constexpr double shorter_cost = 20;  ///< of the next shorter text
@@ -60,10 +62,33 @@ int width_with_key(double right, const std::vector<std::string>& words) {
   return static_cast<int>(std::max(usual, right + sample + widest));
 }
 
+std::string heading_lines(const std::vector<std::string>& parts, double room) {
+  std::string text, line;
+  const auto add = [&](const std::string& words, const char* between) {
+    if (line.empty())
+      line = words;
+    else if (text_width(line + between + words, heading_letters) <= room)
+      line += between + words;
+    else {
+      text += line + (between[0] == ';' ? ";\n" : "\n");
+      line = words;
+    }
+  };
+  for (const std::string& part : parts) {
+    if (text_width(part, heading_letters) <= room) {
+      add(part, "; ");
+      continue;
+    }
+    std::istringstream words(part);
+    const char* between = "; ";
+    for (std::string word; words >> word; between = " ") add(heading_line(word, room), between);
+  }
+  return text + line;
+}
+
 std::string heading_line(std::string line, double room) {
-  constexpr double letters = 11;
-  if (text_width(line, letters) <= room) return line;
-  while (!line.empty() && text_width(line + "…", letters) > room) {
+  if (text_width(line, heading_letters) <= room) return line;
+  while (!line.empty() && text_width(line + "…", heading_letters) > room) {
     while ((static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
     line.pop_back();
   }

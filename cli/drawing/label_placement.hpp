@@ -65,6 +65,9 @@ double text_width(const std::string& text, double font_size);
 /// A line of a title, cut to so many pixels.
 std::string heading_line(std::string line, double room);
 
+/// The parts of a title with semicolons between them, in lines of so many pixels at most.
+std::string heading_lines(const std::vector<std::string>& parts, double room);
+
 /// The width of a page with a key outside on the right, of these words in small letters, whose diagrams end
 /// at `right`, in pixels.
 int width_with_key(double right, const std::vector<std::string>& words);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/drawing/gnuplot.hpp"
 #include "cli/drawing/label_placement.hpp"
 
 namespace cli::inline drawings {
@@ -22,10 +23,11 @@ struct PageArea {
   double title_room() const;
 };
 
-/// The window: all points with room around; where all are one, `otherwise` is its size.
+/// The window: all points with room around, that part of their size; where all are one, `otherwise` is its
+/// size.
 struct PageWindow {
   Point low, high;
-  PageWindow(const Polygon& points, double otherwise);
+  PageWindow(const Polygon& points, double otherwise, double room = 0.45);
   Polygon frame() const { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
   double size() const { return (high - low).maxCoeff(); }
   /// In pixels from the lower left corner of the picture.
@@ -35,7 +37,8 @@ struct PageWindow {
 /// A picture: data blocks first, then what is plotted of them, arrows, and labels where there is room.
 class LabelledPage {
  public:
-  LabelledPage(const PageWindow& window, PageArea area);
+  /// One unit of the window is `unit` of the numbers at the axes.
+  LabelledPage(const PageWindow& window, PageArea area, Point unit = {1, 1});
 
   /// Plots the points, `how` in gnuplot's words.
   void add(const Polygon& points, const std::string& how);
@@ -47,8 +50,8 @@ class LabelledPage {
   void arrow(const Point& from, const Point& to, const char* style);
   /// The first of the texts that lies on nothing, or the one that stands best. Whether there was room.
   bool label(const Polygon& anchors, const std::vector<std::string>& texts, const char* tint);
-  /// The whole, with the names of its axes and its title.
-  std::string script(const std::string& x, const std::string& y, const std::string& title) const;
+  /// The whole, with the names of its axes and its title of some lines, for `page_of`.
+  Drawing drawing(const std::string& x, const std::string& y, const std::string& title) const;
 
  private:
   std::vector<PagePoint> pixels(const Polygon&) const;
@@ -56,9 +59,13 @@ class LabelledPage {
 
   const PageWindow& window_;
   PageArea area_;
+  Point unit_;
   LabelPlacement labels_;
   std::string blocks_, plots_;
   int count_ = 0;
 };
+
+/// A page of a picture, or of two beside each other, as high as their titles need.
+Drawing page_of(const std::vector<Drawing>& pictures);
 
 }  // namespace cli::inline drawings

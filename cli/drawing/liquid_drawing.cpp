@@ -82,6 +82,7 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
   const LiquidSection section(scene, found, axes);
   std::string script = "$p << END\n" + section.field() + "END\n";
   const std::string hatching = section.hatching(), outline = section.outline();
+  script += "$border << END\n" + section.border() + "END\n";
   std::string parted;
   for (const mechanics::liquid::Point& x : section.parted()) parted += fmt::format("{} {}\n", x[0], x[1]);
   const LiquidSection::Arrows arrows = with_velocity ? section.velocity() : LiquidSection::Arrows{};
@@ -97,6 +98,7 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
       "using 1:2:3 with lines nosurface\nunset table\nset surface\nunset contour\n",
       between, between, below_largest * found.largest);
   std::string heading = liquid_title(found, title);
+  if (found.largest > 0) heading += fmt::format("; contours every {:g}", between);
   if (scene.dimension() == 3)
     heading += fmt::format("; section {} = {:.4g}", scene.coordinates[axes[2]], section.height());
   if (arrows.fastest > 0)
@@ -107,7 +109,8 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
   script += fmt::format(
       "set title {}\nset xlabel {}\nset ylabel {}\nset size ratio -1\nunset key\nset tics out\nset xrange "
       "[{}:{}]\nset "
-      "yrange [{}:{}]\nset cblabel 'p'\nset rmargin 10\nset palette defined (0 '#ffffff', 0.3 '#c6dbef', 0.7 "
+      "yrange [{}:{}]\nset label 'p' at graph 1.065,1 center offset 0,0.8\nset rmargin 10\nset palette "
+      "defined (0 '#ffffff', 0.3 '#c6dbef', 0.7 "
       "'#6baed6', 1 "
       "'#2171b5')\nset cbrange [0:{}]\n",
       cli::quoted(heading), cli::quoted(scene.coordinates[axes[0]]), cli::quoted(scene.coordinates[axes[1]]),
@@ -117,10 +120,14 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
   if (!hatching.empty()) script += ", $hatching using 1:2:3:4 with vectors nohead lc rgb '#303030' lw 0.8";
   if (!hatching.empty() && !outline.empty())
     script += ", $outline using 1:2:3:4 with vectors nohead lc rgb '#303030' lw 1.5";
+  script += ", $border using 1:2:3:4 with vectors nohead lc rgb '#202020' lw 1.6";
   if (!parted.empty()) script += ", $parted using 1:2 with points pt 7 ps 0.35 lc rgb '#d00000'";
   if (!arrows.vectors.empty())
     script += ", $velocity using 1:2:3:4 with vectors head size screen 0.008,25 filled lc rgb '#b05000' lw 1";
-  return {script + "\n", 640};
+  // Of the frame as wide as the page leaves it, with what is around.
+  constexpr double frame_width = 500, around = 130, least = 260, most = 900;
+  const double height = around + frame_width * section.side(1) / section.side(0);
+  return {script + "\n", static_cast<int>(std::clamp(height, least, most))};
 }
 
 }  // namespace cli::inline drawings

@@ -124,33 +124,49 @@ SectionPoint LiquidSection::edge_between(SectionPoint in, SectionPoint out) cons
   return at(0.5 * (in[0] + out[0]), 0.5 * (in[1] + out[1]));
 }
 
-std::string LiquidSection::outline() const {
+std::string LiquidSection::edge(int nx, int ny, const std::function<Side(const SectionPoint&)>& side_of,
+                                const Between& between) const {
   std::string text;
-  const int nx = count(0) / 2 + 1, ny = count(1) / 2 + 1;
   const auto node = [&](int i, int j) { return at(low(0) + side(0) * i / nx, low(1) + side(1) * j / ny); };
-  std::vector<int> state;  // 0: outside of the domain, 1: liquid, 2: cavity
-  for (int j = 0; j <= ny; ++j)
-    for (int i = 0; i <= nx; ++i) {
-      const SectionPoint x = node(i, j);
-      state.push_back(!is_inside(x) ? 0 : in_cavity(x) ? 2 : 1);
-    }
-  const auto state_at = [&](int i, int j) { return state[static_cast<std::size_t>(j * (nx + 1) + i)]; };
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) {
+  std::vector<Side> sides;
+  for (int j = -1; j <= ny + 1; ++j)
+    for (int i = -1; i <= nx + 1; ++i) sides.push_back(side_of(node(i, j)));
+  const auto side_at = [&](int i, int j) {
+    return sides[static_cast<std::size_t>((j + 1) * (nx + 3) + i + 1)];
+  };
+  for (int j = -1; j <= ny; ++j)
+    for (int i = -1; i <= nx; ++i) {
       constexpr std::array<std::array<int, 2>, 5> around{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
       std::vector<SectionPoint> crossed;
-      for (std::size_t side = 0; side < 4; ++side) {
-        const auto &a = around[side], &b = around[side + 1];
-        const int here = state_at(i + a[0], j + a[1]), there = state_at(i + b[0], j + b[1]);
-        if (here == 0 || there == 0 || here == there) continue;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto &a = around[k], &b = around[k + 1];
+        const Side here = side_at(i + a[0], j + a[1]), there = side_at(i + b[0], j + b[1]);
+        if (here == Side::none || there == Side::none || here == there) continue;
         const SectionPoint x = node(i + a[0], j + a[1]), y = node(i + b[0], j + b[1]);
-        crossed.push_back(here == 2 ? edge_between(x, y) : edge_between(y, x));
+        crossed.push_back(here == Side::in ? between(x, y) : between(y, x));
       }
       for (std::size_t k = 0; k + 1 < crossed.size(); k += 2)
         text += fmt::format("{} {} {} {}\n", crossed[k][0], crossed[k][1], crossed[k + 1][0] - crossed[k][0],
                             crossed[k + 1][1] - crossed[k][1]);
     }
   return text;
+}
+
+std::string LiquidSection::outline() const {
+  return edge(
+      count(0) / 2 + 1, count(1) / 2 + 1,
+      [this](const SectionPoint& x) {
+        return !is_inside(x) ? Side::none : in_cavity(x) ? Side::in : Side::out;
+      },
+      [this](const SectionPoint& in, const SectionPoint& out) { return edge_between(in, out); });
+}
+
+std::string LiquidSection::border() const {
+  return edge(
+      count(0), count(1), [this](const SectionPoint& x) { return is_inside(x) ? Side::in : Side::out; },
+      [this](const SectionPoint& in, const SectionPoint& out) {
+        return in_section(scene_.domain.crossing(in_space(in), in_space(out)));
+      });
 }
 
 std::vector<SectionPoint> LiquidSection::parted() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class LiquidSection {
   std::string field() const;
   /// The parts of lines x - y = c that lie in the cavity, as vectors.
   std::string hatching() const;
+  /// The edge of the domain, as vectors: a segment a cell of the field that it passes.
+  std::string border() const;
   /// The cavity's edge inside the domain, as vectors: a segment a cell of half the field's step that it
   /// passes.
   std::string outline() const;
@@ -52,6 +55,13 @@ class LiquidSection {
   bool in_cavity(const mechanics::liquid::Point&) const;
   int count(std::size_t i) const;
   mechanics::liquid::Point edge_between(mechanics::liquid::Point in, mechanics::liquid::Point out) const;
+  /// What a point is in: nothing, one side of an edge, the other.
+  enum class Side { none, out, in };
+  using Between = std::function<mechanics::liquid::Point(const mechanics::liquid::Point& in,
+                                                         const mechanics::liquid::Point& out)>;
+  /// Between `in` and `out`, on a grid of nx × ny cells and one more around.
+  std::string edge(int nx, int ny, const std::function<Side(const mechanics::liquid::Point&)>&,
+                   const Between&) const;
   const mechanics::liquid::LiquidScene& scene_;
   const mechanics::liquid::LiquidSolution& found_;
   SectionAxes axes_;

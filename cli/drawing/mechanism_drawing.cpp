@@ -67,11 +67,12 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
   double longest = 0;
   for (const ContactArrow& arrow : arrows)
     longest = std::max(longest, std::hypot(arrow.force[0], arrow.force[1]));
-  constexpr double longest_part = 0.28;  // of the picture of the mechanism alone
-  const double a_unit = longest > 0 ? longest_part * PageWindow(all, 1).size() / longest : 0;
+  // Of the mechanism's size; and around it, where its labels stand.
+  constexpr double longest_part = 0.4, room = 0.15;
+  const double a_unit = longest > 0 ? longest_part * PageWindow(all, 1, 0).size() / longest : 0;
   for (const ContactArrow& arrow : arrows)
     all.emplace_back(arrow.at[0] + a_unit * arrow.force[0], arrow.at[1] + a_unit * arrow.force[1]);
-  const PageWindow window(all, 1);
+  const PageWindow window(all, 1, room);
   LabelledPage page(window, area);
   for (std::size_t k = 0; k < outlines.size(); ++k) {
     if (drawn.shapes()[k].kind == DrawnShape::Kind::point)
@@ -79,43 +80,46 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
     else
       page.line(outlines[k], "with lines lc rgb \"#222222\" lw 2.2 notitle");
   }
-  std::set<Index> named;
   for (const ContactArrow& arrow : arrows) {
     const Point at(arrow.at[0], arrow.at[1]), force(arrow.force[0], arrow.force[1]);
+    // The dot shows where a force is that is too small for an arrow.
+    page.point(at, "with points pt 7 ps 0.5 lc rgb \"#d55e00\" notitle");
     page.arrow(at, at + a_unit * force, "lc rgb \"#d55e00\" lw 2");
   }
-  std::vector<std::string> unnamed;
+  std::set<Index> named;
+  std::vector<std::string> without_room, without_place, without_force;
   for (const ContactArrow& arrow : arrows) {
+    if (!named.insert(arrow.constraint).second) continue;  // the second of a pair is as long
     const Point at(arrow.at[0], arrow.at[1]), force(arrow.force[0], arrow.force[1]);
     const Point step = a_unit * force;
-    const std::string& name = scene.constraints[static_cast<std::size_t>(arrow.constraint)];
-    // The second arrow of a pair of places has the name alone.
-    const bool is_first = named.insert(arrow.constraint).second;
-    const std::string label = is_first ? name + " " + number_text(lambda[arrow.constraint]) : name;
-    if (!page.label({at + step, at + step / 2, at}, {label}, "#b04a00") && is_first) unnamed.push_back(name);
+    const std::string label =
+        scene.constraints[static_cast<std::size_t>(arrow.constraint)] + " " + number_text(force.norm());
+    if (!page.label({at + step, at + step / 2, at}, {label}, "#b04a00")) without_room.push_back(label);
   }
-  for (const Index a : scene.contacts)
-    if (named.count(a) == 0) unnamed.push_back(scene.constraints[static_cast<std::size_t>(a)]);
+  for (const Index a : scene.contacts) {
+    const std::string& name = scene.constraints[static_cast<std::size_t>(a)];
+    if (lambda[a] == 0)
+      without_force.push_back(name);
+    else if (named.count(a) == 0)
+      without_place.push_back(name + " (lambda " + number_text(lambda[a]) + ")");
+  }
+  std::vector<std::string> below;
+  if (!arrows.empty()) below.emplace_back("arrows, numbers: forces, as far as they work on their place");
+  if (!without_room.empty()) below.push_back("no room for " + listed(without_room));
+  if (!without_place.empty()) below.push_back("on no place that is drawn: " + listed(without_place));
+  if (!without_force.empty()) below.push_back("without force: " + listed(without_force));
   std::string title = heading_line(scene.title.empty() ? scene.file : scene.title, area.title_room());
-  // In one line: a third has no room above the frame.
-  std::string below;
-  if (!arrows.empty())
-    below = "arrows: forces, as far as they work there, the longest " + number_text(longest) +
-            "; numbers: lambda";
-  if (!unnamed.empty()) below += (below.empty() ? "" : "; ") + ("without an arrow: " + listed(unnamed));
-  if (!below.empty()) title += "\n" + heading_line(below, area.title_room());
-  return {page.script("across, in the units of the file", "up, in the units of the file", title), page_size,
-          area.page_width};
+  if (!below.empty()) title += "\n" + heading_lines(below, area.title_room());
+  return page.drawing("across, in the units of the file", "up, in the units of the file", title);
 }
 
 Drawing scene_drawing(const SolvedScene& solved, const DrawnScene& drawn,
                       const std::optional<std::string>& plane) {
-  if (drawn.shapes().empty() || !solved.has_answer()) return decomposition_drawing(solved, plane);
-  if (solved.scene.problem.dimension() < 2) return mechanism_drawing(solved, drawn, {});
+  if (drawn.shapes().empty() || !solved.has_answer()) return page_of({decomposition_drawing(solved, plane)});
+  if (solved.scene.problem.dimension() < 2) return page_of({mechanism_drawing(solved, drawn, {})});
   constexpr int both = 2 * page_size;
-  const Drawing left = mechanism_drawing(solved, drawn, {0, both}),
-                right = decomposition_drawing(solved, plane, {page_size, both});
-  return {"set multiplot\n" + left.script + right.script + "unset multiplot\n", page_size, both};
+  return page_of(
+      {mechanism_drawing(solved, drawn, {0, both}), decomposition_drawing(solved, plane, {page_size, both})});
 }
 
 }  // namespace cli::inline drawings

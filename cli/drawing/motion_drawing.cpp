@@ -48,6 +48,26 @@ std::string style(mechanics::EventKind kind) {
                      dashes);
 }
 
+/// Of more events the lines would be the picture: they are marks above the diagrams.
+constexpr std::size_t most_event_lines = 12;
+
+/// gnuplot's mark of an event above a diagram, where there are many.
+std::string mark(mechanics::EventKind kind) {
+  switch (kind) {
+    case mechanics::EventKind::impact:
+      return "pt \"|\" lc rgb \"#555555\" font \",7\"";
+    case mechanics::EventKind::contact:
+      return "pt 11 ps 0.5 lc rgb \"#222222\"";
+    case mechanics::EventKind::release:
+      return "pt 8 ps 0.5 lc rgb \"#222222\"";
+    case mechanics::EventKind::accumulation:
+      return "pt 7 ps 0.45 lc rgb \"#222222\"";
+    case mechanics::EventKind::branch:
+      return "pt 5 ps 0.45 lc rgb \"#222222\"";
+  }
+  return "";
+}
+
 /// Pixels; the key is beside them.
 constexpr double motion_left = 77, motion_right = 574;
 
@@ -141,10 +161,19 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
   panels.push_back({"energy", {"T + V"}, 2 + coordinates_ + 2 * constraints_, 0});
   std::map<mechanics::EventKind, std::string> kinds;
   std::string marks;
+  const bool are_lines = events_.size() <= most_event_lines;
+  int labels = 1;  // the first names an axis
   for (const auto& [kind, place] : events_) {
     const double t = begin_ + (end_ - begin_) * static_cast<double>(place) / static_cast<double>(mark_places);
-    marks += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} back\n", t, style(kind));
-    kinds[kind] = fmt::format(", \\\n  NaN with lines {} title {}", style(kind), quoted(name(kind)));
+    if (are_lines || kind == mechanics::EventKind::impact)
+      marks += fmt::format("set arrow from {0}, graph {1} to {0}, graph {2} nohead {3} back\n", t,
+                           are_lines ? 0 : 1.02, are_lines ? 1 : 1.08,
+                           are_lines ? style(kind) : "lc rgb \"#555555\" lw 0.6");
+    else
+      marks += fmt::format("set label {} at {}, graph 1.05 \"\" point {}\n", ++labels, t, mark(kind));
+    kinds[kind] =
+        fmt::format(", \\\n  NaN with {} title {}",
+                    are_lines ? "lines " + style(kind) : "points " + mark(kind), quoted(name(kind)));
   }
   StackedDiagrams stacked{motion_left, motion_right, {}};
   for (const Panel& panel : panels) {

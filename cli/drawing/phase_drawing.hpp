@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "cli/drawing/gnuplot.hpp"
@@ -8,8 +9,8 @@
 
 namespace cli::inline drawings {
 
-/// The velocity of a coordinate over the coordinate: a curve that is interrupted where the velocity jumps, or
-/// the points of a strobe (Poincaré's section).
+/// The velocity of a coordinate over the coordinate: a curve that is interrupted where the velocity jumps,
+/// with marks where it begins and ends, or the points of a strobe (Poincaré's section).
 class PhaseDrawing {
  public:
   PhaseDrawing(const mechanics::LagrangianSystem&, convex::Index coordinate, Instants instants,
@@ -26,8 +27,9 @@ class PhaseDrawing {
   Instants instants_;
   bool is_strobe_;
   convex::Vector modulo_;
-  long row_ = 0;
+  long instant_ = 0, rows_ = 0;
   double last_ = 0;
+  std::array<double, 2> begin_{}, end_{};
   std::string points_;
 };
 

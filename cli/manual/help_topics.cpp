@@ -124,10 +124,45 @@ with it a proved one, in fractions or intervals, of the mechanism as written; ex
 `moreau check FILE` puts an answer to the laws that it must obey.
 )text";
 
+constexpr std::string_view contact_text =
+    R"text(A contact is an inequality of the coordinates, written below [system.constraints]:
+  floor  = "y >= h"                     one-sided: it pushes, lambda >= 0, and may open
+  string = "x^2 + y^2 <= l^2"           one-sided too: it pulls when it is taut
+  rod    = "x^2 + y^2 = l^2"            two-sided: it holds
+
+It is present (in K) where f = 0 and df/dt = 0, to contact_tolerance. `moreau solve` then tells whether it
+  persists   it goes on, with the multiplier lambda
+  opens      it is in K and is left now, d2f/dt2 > 0
+  touches    it neither presses nor opens to second order
+  inactive   it is not in K: apart, or being left already
+lambda is the force of the contact where f is a distance; elsewhere the column |lambda grad f| is.
+A state that is not quite in contact: `moreau help state`. Impacts: `moreau help motion`.
+)text";
+
+constexpr std::string_view friction_text =
+    R"text(Contacts have no friction: their forces are along the gradient of f alone. What there is in its place:
+  [system.forces] x = "-c*x'"              a resistance that grows with the velocity
+  [system.forces] x = "-mu*N*sign(x')"     sliding friction, where the normal force N is known beforehand
+  stuck = "x = 0"                          a two-sided constraint holds what sticks; its lambda is the force
+                                           that friction has to give: compare it with mu times the normal one
+A cone of friction as a convex set: second_order_cone(), docs/problems/decomposition_friction_cone.toml.
+)text";
+
+constexpr std::string_view units_text =
+    R"text(Numbers carry no units: any consistent system will do, as m, kg, s, N, and radians.
+  [system.parameters] alpha = "30*pi/180"  30 degrees
+lambda has the unit of energy over that of f: a force where f is a length, a moment where it is an angle.
+Choose units in which lengths are not far below 1: a contact counts as closed within contact_tolerance times
+the largest term of f, or times 1 (`moreau help state`).
+)text";
+
 constexpr HelpTopic topics[] = {
     {"start", "from nothing to an answer", start_text},
     {"system", "what a file on a mechanism holds", system_text},
     {"state", "the state of a mechanism, and which contacts are present", state_text},
+    {"contact", "how contacts are written, and what becomes of them", contact_text},
+    {"friction", "there is none, and what there is in its place", friction_text},
+    {"units", "numbers carry none", units_text},
     {"expressions", "what may stand in an expression", expressions_text},
     {"motion", "what a file says of a motion, and what may be asked", motion_text},
     {"liquid", "what a file on a liquid holds: the inception of cavitation", liquid_text},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 
 namespace cli::inline reports {
@@ -25,9 +26,9 @@ Math indexed(const std::string& plain, const std::string& latex, const std::stri
 Math vector_math(const convex::Vector& v) {
   constexpr convex::Index most = 8;
   Math made{"(", "("};
-  const convex::Index shown = std::min(v.size(), most);
+  const convex::Index shown = v.size() <= most + 1 ? v.size() : most;  // "1 more" is as long as the number
   for (convex::Index i = 0; i < shown; ++i) {
-    const Math number = number_math(v[i]);
+    const Math number = number_math(without_rounding(v[i], v.cwiseAbs().maxCoeff()));
     made.plain += (i == 0 ? "" : ", ") + number.plain;
     made.latex += (i == 0 ? "" : ",\\allowbreak\\ ") + number.latex;
   }
@@ -44,6 +45,7 @@ Math vector_math(const convex::Vector& v) {
 Document explanation(const SolvedScene& solved, const SystemProblem* text, const Line& next) {
   const Scene& scene = solved.scene;
   Document document{scene.title.empty() ? scene.file : scene.title, {}};
+  if (text != nullptr) explain_letters(document, *text);
   if (text != nullptr) explain_mechanism(document, solved, *text);
   explain_contacts(document, solved, text);
   if (!solved.infeasible()) explain_hypothesis(document, solved);

@@ -20,7 +20,7 @@ std::string written_constraint(const SystemProblem& text, const std::string& nam
     if (key == name) return constraint.value.text;
     if (key.substr(0, key.find('[')) == family && found == nullptr) found = &constraint;
   }
-  return found != nullptr ? found->value.text : "";
+  return found != nullptr ? of_member(found->name.text, found->value.text, name) : "";
 }
 
 Line row_of(const SolvedScene& solved, std::size_t k) {

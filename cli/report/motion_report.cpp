@@ -9,6 +9,8 @@
 #include "cli/report/answer.hpp"
 #include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
+#include "convex/invalid_input.hpp"
+#include "convex/metric.hpp"
 
 namespace cli::inline reports {
 namespace {
@@ -72,6 +74,51 @@ std::string without_time(const std::string& reason) {
 
 }  // namespace
 
+namespace {
+
+/// Velocities and accelerations at the end as they are to be read: what the forces and the multipliers there
+/// cancel to is 0, and so is a velocity beside what each of them alone would have made in the time.
+struct ReadableEnd {
+  convex::Vector v, acceleration;
+};
+
+/// |A⁻¹z| + Σ |lambda_a A⁻¹u_a|, entry by entry: what the acceleration is the sum of.
+convex::Vector terms_of_acceleration(const mechanics::LagrangianSystem& system,
+                                     const mechanics::Motion& motion) {
+  const mechanics::Inertia inertia = system.inertia(motion.state());
+  const convex::Metric A = convex::Metric::dense(convex::Matrix(inertia.A));
+  convex::Vector terms = A.solve(inertia.z).cwiseAbs();
+  const convex::Vector& lambda = motion.multipliers();
+  std::vector<Index> loaded;
+  for (Index a = 0; a < lambda.size(); ++a)
+    if (lambda[a] != 0) loaded.push_back(a);
+  const convex::SparseRows U = system.contact_rows(motion.state(), loaded).U;
+  for (std::size_t k = 0; k < loaded.size(); ++k)
+    terms += std::abs(lambda[loaded[k]]) *
+             A.solve(convex::Vector(U.row(static_cast<Index>(k)).transpose())).cwiseAbs();
+  return terms;
+}
+
+ReadableEnd readable_end(const FollowedMotion& followed) {
+  constexpr Index most_coordinates = 100;  // of a dense factor that is not noticed
+  const mechanics::Motion& motion = followed.motion;
+  ReadableEnd end{motion.state().v, motion.acceleration()};
+  const Index n = end.v.size();
+  if (n > most_coordinates || end.acceleration.size() != n) return end;
+  try {
+    const convex::Vector terms = terms_of_acceleration(followed.system, motion);
+    for (Index i = 0; i < n; ++i) {
+      end.acceleration[i] = without_rounding(end.acceleration[i], terms[i]);
+      end.v[i] = without_rounding(end.v[i], terms[i] * std::abs(motion.state().t - followed.begin));
+    }
+  } catch (const convex::InvalidInput&) {
+    return end;  // the motion ends where the expressions do
+  }
+  return end;
+}
+
+}  // namespace
+
 Exit motion_exit(const FollowedMotion& followed) {
   if (followed.motion.status() == MotionStatus::infeasible) return Exit::no_solution;
   return is_stopped(followed) ? Exit::inaccurate : Exit::solved;
@@ -92,7 +139,9 @@ std::string motion_json(const FollowedMotion& followed) {
     for (const Index a : motion.excluding()) json.value(constraints[static_cast<std::size_t>(a)]);
     json.end_array();
   }
-  json.key("method").value(mechanics::name(motion.method())).key("t").value(state.t);
+  json.key("method").value(mechanics::name(motion.method()));
+  if (!followed.choice.empty()) json.key("choice").value(followed.choice);
+  json.key("t").value(state.t);
   json.key("position").numbers(coordinates, state.q).key("velocity").numbers(coordinates, state.v);
   const bool is_known = motion.acceleration().size() == state.q.size();
   json.key("acceleration");
@@ -164,18 +213,20 @@ std::string motion_text(const FollowedMotion& followed) {
   }
   TextTable end({"", "q", "q'", "q''"});
   const bool is_known = motion.acceleration().size() == state.q.size();
+  const ReadableEnd read = readable_end(followed);
   const std::size_t coordinates = followed.system.coordinates().size();
   constexpr auto shown_rows = static_cast<std::size_t>(most_rows);
   for (std::size_t i = 0; i < std::min(coordinates, shown_rows); ++i) {
     const auto k = static_cast<Index>(i);
-    end.add({followed.system.coordinates()[i], number_text(state.q[k]), number_text(state.v[k]),
-             is_known ? number_text(motion.acceleration()[k]) : "-"});
+    end.add({followed.system.coordinates()[i], number_text(state.q[k]), number_text(read.v[k]),
+             is_known ? number_text(read.acceleration[k]) : "-"});
   }
   text += end.text();
   if (coordinates > shown_rows)
     text += fmt::format("  … {} more coordinates; --json has them all\n", coordinates - shown_rows);
   text += fmt::format("\nSteps: {}. Events: {}, impacts among them: {}. T + V = {}.\n", record.steps,
                       record.events, record.impacts, number_text(motion.energy()));
+  if (!followed.choice.empty()) text += "Method " + followed.choice + ".\n";
   const double size = record.first_impact ? record.first_impact->kinetic : 0;
   if (record.impacts > 0)
     text += fmt::format("Impacts changed T by {}; the ledger of impulses says {}.\n",

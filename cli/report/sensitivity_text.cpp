@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/nearest_point/multipliers/sensitivity.hpp"
 
@@ -40,11 +41,11 @@ class DerivativeTable {
   void add(const std::string& what, const Vector& dz, const Vector& ds) {
     const auto more = derivative(solved_, dz, ds), less = derivative(solved_, -dz, -ds);
     if (more && less && is_linear(*more, *less)) {
-      add_row("a unit more of " + what, more);
+      add_row("a unit more of " + what, dz, more);
       return;
     }
-    add_row("a unit more of " + what, more);
-    add_row("a unit less of " + what, less);
+    add_row("a unit more of " + what, dz, more);
+    add_row("a unit less of " + what, -dz, less);
   }
 
   std::string text() const { return table_.text(); }
@@ -58,12 +59,31 @@ class DerivativeTable {
     return names;
   }
 
-  void add_row(const std::string& what, const std::optional<convex::Derivative>& by) {
+  /// What cancels to rounding is 0: an acceleration of what the force and the contacts make of it, a
+  /// multiplier beside the others, in the norm of A⁻¹.
+  void add_row(const std::string& what, const Vector& dz, const std::optional<convex::Derivative>& by) {
     std::vector<std::string> row{what};
-    const Index n = solved_.scene.problem.dimension(), m = solved_.scene.problem.rows();
-    for (Index i = 0; i < n; ++i) row.push_back(by ? number_text(by->acceleration[i]) : "-");
-    for (Index a = 0; a < m; ++a)
-      row.push_back(by && by->multipliers ? number_text((*by->multipliers)[a]) : "-");
+    const convex::NearestPointProblem& problem = solved_.scene.problem;
+    const Index n = problem.dimension(), m = problem.rows();
+    const bool has_multipliers = by && by->multipliers;
+    Vector terms = problem.A.solve(dz).cwiseAbs();
+    for (Index i = 0; by && !has_multipliers && i < n; ++i)
+      terms[i] = problem.A.norm(by->acceleration) * problem.A.dual_norm(Vector::Unit(n, i));
+    double largest = 0;
+    for (Index a = 0; has_multipliers && a < m; ++a) {
+      const Vector u = problem.U.row(a);
+      const double change = std::abs((*by->multipliers)[a]);
+      terms += change * problem.A.solve(u).cwiseAbs();
+      largest = std::max(largest, change * problem.A.dual_norm(u));
+    }
+    for (Index i = 0; i < n; ++i)
+      row.push_back(by ? number_text(without_rounding(by->acceleration[i], terms[i])) : "-");
+    for (Index a = 0; a < m; ++a) {
+      const double length = problem.A.dual_norm(problem.U.row(a));
+      row.push_back(has_multipliers ? number_text(without_rounding((*by->multipliers)[a],
+                                                                   length > 0 ? largest / length : 0))
+                                    : "-");
+    }
     table_.add(std::move(row));
   }
 

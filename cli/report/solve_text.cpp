@@ -132,10 +132,10 @@ std::string refuted_text(const SolvedScene& solved) {
   return text;
 }
 
-/// "y'' = 9/5, a'' = -6; lambda left 0, right 7/2": the answer of the mechanism as written, where its
+/// "y'' = 9/5, a'' = -6; lambda left 0, right 7/2": an exact answer over the constraints K, where its
 /// fractions are short enough to be read.
-std::string fractions_text(const SolvedScene& solved, const mechanics::TextProof& proof) {
-  if (!proof.exact || !proof.contacts_hold || solved.infeasible()) return "";
+std::string fractions_text(const Scene& scene, const mechanics::ExactGaussSolution& exact,
+                           const std::vector<Index>& K) {
   constexpr std::size_t readable = 24, longest_line = 120;
   bool is_readable = true;
   const auto shown = [&](const convex::ExactVector& x, std::size_t i) {
@@ -144,18 +144,26 @@ std::string fractions_text(const SolvedScene& solved, const mechanics::TextProof
     return text;
   };
   std::string text, multipliers;
-  for (std::size_t i = 0; i < solved.scene.coordinates.size(); ++i)
-    text += fmt::format("{}{}'' = {}", i == 0 ? "" : ", ", solved.scene.coordinates[i],
-                        shown(proof.exact->primal.q, i));
-  for (std::size_t k = 0; k < proof.K.size(); ++k)
+  for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
+    text += fmt::format("{}{}'' = {}", i == 0 ? "" : ", ", scene.coordinates[i], shown(exact.primal.q, i));
+  for (std::size_t k = 0; k < K.size(); ++k)
     multipliers += fmt::format("{} {} {}",
-                               k > 0                             ? ","
-                               : proof.exact->multipliers.unique ? "; lambda"
-                                                                 : "; lambda of least norm",
-                               solved.scene.constraints[static_cast<std::size_t>(proof.K[k])],
-                               shown(proof.exact->multipliers.least_norm, k));
+                               k > 0                      ? ","
+                               : exact.multipliers.unique ? "; lambda"
+                                                          : "; lambda of least norm",
+                               scene.constraints[static_cast<std::size_t>(K[k])],
+                               shown(exact.multipliers.least_norm, k));
   text += multipliers;
   return is_readable && text.size() <= longest_line ? "In fractions: " + text + ".\n" : "";
+}
+
+/// Of the mechanism as written where that is proved, else of the numbers that the method "exact" was given.
+std::string fractions_text(const SolvedScene& solved) {
+  if (solved.infeasible()) return "";
+  const mechanics::TextProof* text = solved.text;
+  if (text != nullptr)
+    return text->exact && text->contacts_hold ? fractions_text(solved.scene, *text->exact, text->K) : "";
+  return solved.exact != nullptr ? fractions_text(solved.scene, *solved.exact, solved.scene.contacts) : "";
 }
 
 /// What the text of a mechanism proves of the contacts, and of the answer.
@@ -198,7 +206,7 @@ std::string from_text_text(const SolvedScene& solved) {
         "counted as dependent{}",
         constraints_text(solved, proof.dependent), proof.dependent.size() == 1 ? "depends" : "depend",
         proof.dependent.size() == 1 ? "it is" : "they are", solved.infeasible() ? "" : " and consistent");
-  return text + ".\n" + fractions_text(solved, proof);
+  return text + ".\n";
 }
 
 const char* proof_text(const std::optional<convex::Certificate>& certificate) {
@@ -324,7 +332,7 @@ std::string solve_text(const SolvedScene& solved) {
          added_rows_text(solved) + touching_text(solved) + uniqueness_text(solved, read) +
          (tells_hypothesis ? hypothesis_text(solved) : "") + (tells_how ? model_text(solved) : "") +
          left_open_text(solved) + dual_text(solved) + accuracy_text(solved) + from_text_text(solved) +
-         sensitivity_text(solved);
+         fractions_text(solved) + sensitivity_text(solved);
 }
 
 }  // namespace cli::inline reports

@@ -86,12 +86,12 @@ std::string rule_text(const SolvedScene& solved) {
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
   std::string text;
-  const std::size_t shown_names = std::min(names.size(), most);
+  const std::size_t shown_names = names.size() == most + 1 ? names.size() : std::min(names.size(), most);
   for (std::size_t k = 0; k < shown_names; ++k) {
     const bool last = k + 1 == names.size();
     text += (k == 0 ? "" : last ? " and " : ", ") + names[k];
   }
-  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  if (names.size() > shown_names) text += fmt::format(" and {} more", names.size() - shown_names);
   return text;
 }
 

@@ -49,6 +49,31 @@ std::string SweepTable::row(const SweepPoint& point) const {
   return line + "," + number_cell(point.error_bound) + "\n";
 }
 
+void SweepTable::write(JsonWriter& json, const SweepPoint& point) const {
+  const auto number = [&](const std::string& name, double x) {
+    json.key(name);
+    std::isnan(x) ? json.null() : json.value(x == 0 ? 0.0 : x);
+  };
+  json.begin_object();
+  for (std::size_t k = 0; k < keys_.size(); ++k) number(keys_[k], point.at[k]);
+  json.key("status").value(point.status).key("active").begin_array();
+  for (const convex::Index a : point.active) json.value(constraints_[static_cast<std::size_t>(a)]);
+  json.end_array();
+  if (has_changes_) json.key("change").value(point.is_change ? 1 : 0);
+  for (std::size_t k = 0; k < watched_.size(); ++k)
+    number(watched_[k].name, k < point.watched.size() ? point.watched[k] : NAN);
+  number("error_bound", point.error_bound);
+  if (!point.message.empty()) json.key("message").value(point.message);
+  json.end_object();
+}
+
+std::string SweepTable::without_answer(const SweepPoint& point) const {
+  std::string where;
+  for (std::size_t k = 0; k < keys_.size(); ++k)
+    where += (k > 0 ? ", " : "") + keys_[k] + " = " + number_cell(point.at[k]);
+  return "at " + where + ": " + (point.message.empty() ? point.status : point.message);
+}
+
 std::pair<std::uintmax_t, std::size_t> SweepTable::resumed(
     const std::string& file, const std::function<std::vector<double>(std::size_t)>& point) const {
   std::ifstream in(file, std::ios::binary);

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "cli/json_writer.hpp"
 #include "cli/sweep/sweep_point.hpp"
 
 namespace cli::inline sweeps {
@@ -19,6 +20,10 @@ class SweepTable {
 
   std::string header() const;
   std::string row(const SweepPoint&) const;
+  /// The same as an object, `active` a list; null for what is missing.
+  void write(JsonWriter&, const SweepPoint&) const;
+  /// Which point it is, and why it has no answer.
+  std::string without_answer(const SweepPoint&) const;
   /// The names of what persists, with spaces between.
   std::string active(const SweepPoint&) const;
 

@@ -287,3 +287,13 @@ TEST_CASE("no motion that is hard to follow is wrong without saying so") {
            (rows[k][0] == "motion-near-simultaneous" && rows[k][7] == "gave-up")));
   }
 }
+
+TEST_CASE("an answer that says itself how far off it is has few digits in the table, and is not ok") {
+  const Folder folder;
+  const std::string file = tests::source_folder() + "docs/problems/delassus_drops_too_much.toml";
+  const std::string told = run({"chart", "--quick", file}).out;
+  const std::size_t at = told.find("drop-negative");
+  REQUIRE(at != std::string::npos);
+  const std::string line = told.substr(at, told.find('\n', at) - at);
+  CHECK(line.find(" ok") == std::string::npos);
+}

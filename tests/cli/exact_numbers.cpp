@@ -293,3 +293,11 @@ TEST_CASE("integers longer than 64 bits survive a conversion to TOML") {
   CHECK(Json::parse(outcome.out).at("exact").at("acceleration").at("q[0]") ==
         "123456789012345678901234567890");
 }
+
+TEST_CASE("--method exact tells the fractions of a projection in words too, where they are short") {
+  const tests::Outcome told = tests::run_on(
+      "solve",
+      "[projection]\nA = [[2, 0], [0, 3]]\nz = [\"1/3\", -7]\nU = [[0, 1]]\ns = [0]\n[solve]\nmethod = "
+      "\"exact\"\n");
+  CHECK(told.out.find("In fractions: q[0]'' = 1/6, q[1]'' = 0; lambda c[0] 7.\n") != std::string::npos);
+}

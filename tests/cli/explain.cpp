@@ -79,6 +79,49 @@ TEST_CASE("an explanation names each contact, its multiplier and the terms of z"
 }
 
 TEST_CASE(
+    "an explanation tells the parameters and definitions that it speaks of, and each member's own text") {
+  const std::string text = run_on("explain", R"toml(
+[system]
+coordinates = ["x[1..3]"]
+kinetic = "sum(i in 1..3, m/2*x[i]'^2)"
+[system.parameters]
+m = "2*d"
+d = 1.5
+[system.definitions]
+"middle[i in 1..3]" = "i*d + shift"
+shift = "0.25*t"
+[system.constraints]
+"apart[i in 2..3]" = "x[i] - x[i-1] >= d"
+[state]
+position = { "x[i]" = "i*d" }
+)toml")
+                               .out;
+  for (const char* said :
+       {"m               3", "d             1.5", "m = 2*d", "middle[i] = i*d + shift, i in 1..3",
+        "shift = 0.25*t", "apart[2], x[2] - x[1] >= d: f = 0", "apart[3], x[3] - x[2] >= d: f = 0"}) {
+    CAPTURE(said);
+    CHECK(text.find(said) != std::string::npos);
+  }
+}
+
+TEST_CASE("of nine names the ninth is told, not that there is one more, and rounding of a gradient is 0") {
+  const std::string text = run_on("explain", R"toml(
+[system]
+coordinates = ["y[1..9]", "a"]
+kinetic = "sum(i in 1..9, y[i]'^2/2) + a'^2/2"
+potential = "sum(i in 1..9, y[i])"
+[system.constraints]
+"floor[i in 1..9]" = "y[i] >= 0"
+turned = "y[1]*cos(pi/2) + a >= 0"
+[state]
+position = { "y[i]" = 0, a = 0 }
+)toml")
+                               .out;
+  CHECK(text.find("1 more") == std::string::npos);
+  CHECK(text.find("e-17") == std::string::npos);
+}
+
+TEST_CASE(
     "the parts of z are those of a rotating frame: centrifugal force from its turning, Coriolis force from "
     "velocities") {
   // A point at (2, 0) with velocity (0, 3) in a frame that turns with 5: centrifugal 5² 2, Coriolis 2 5 3.

@@ -253,3 +253,21 @@ TEST_CASE("a bump of a given pressure whose foot one crossing of the grid sees i
     CHECK(1 + std::stod(k) <= told + bound);
   }
 }
+
+TEST_CASE("a liquid whose accuracy is not met tells what was asked, how near it came, and what is met") {
+  const Folder folder;
+  const std::string file = folder.write("a.toml",
+                                        "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = "
+                                        "\"polygon(vertices=[[0,0],[2,0],[2,1],[1,1],[1,2],[0,2]])\"\n"
+                                        "density = 1\nforce = [\"3*y\", \"-1\"]\ncells = 16\nfree = { top = "
+                                        "{ where = \"y >= 2\", pressure = 1 } }\n"
+                                        "walls = { rest = { where = \"true\", acceleration = 0 } }\n");
+  const Outcome told = run({"solve", file});
+  CHECK(told.code == 3);
+  CHECK(told.out.find("The accuracy asked for, 0.1 % of the largest pressure, was not met; --tolerance ") !=
+        std::string::npos);
+  CHECK(told.out.find(" % of the largest.\n") != std::string::npos);
+  const std::string before = "--tolerance ";
+  const std::string rest = told.out.substr(told.out.find(before) + before.size());
+  CHECK(run({"solve", "--quiet", file, "--tolerance", rest.substr(0, rest.find(' '))}).code == 0);
+}

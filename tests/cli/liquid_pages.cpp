@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -12,8 +13,12 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <regex>
 #include <sstream>
+#include <tuple>
 
+#include "cli/drawing/gnuplot.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/this_build.hpp"
 
@@ -204,5 +209,40 @@ TEST_SUITE("chromium") {
       CHECK(dom.find("The cavity fills") != std::string::npos);
       CHECK(dom.find("id=\"onset\"") != std::string::npos);
     }
+  }
+}
+
+TEST_CASE("the edge of a liquid's domain is drawn whole, on a page as high as the domain needs") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string picture = folder.path("p.svg");
+  for (const auto& [problem, height, of_a_box] :
+       {std::tuple{"liquid_disc", 630, std::numbers::pi / 4}, std::tuple{"liquid_tank", 900, 1.0}}) {
+    CAPTURE(problem);
+    const std::string file = tests::source_folder() + "docs/problems/" + problem + ".toml";
+    REQUIRE(run({"solve", "--quiet", file, "--plot", picture}).code == 0);
+    std::stringstream text;
+    text << std::ifstream(picture).rdbuf();
+    const std::string svg = text.str();
+    CHECK(svg.find("viewBox=\"0 0 700 " + std::to_string(height)) != std::string::npos);
+    CHECK(svg.find("contours every 0.") != std::string::npos);
+    // The pieces in the edge's colour, and the box around them.
+    double length = 0, left = 1e9, right = 0, top = 1e9, bottom = 0;
+    const std::regex path("<path stroke='rgb\\( 32,  32,  32\\)' *d='([^']*)'"),
+        piece("M([-0-9.]+),([-0-9.]+) L([-0-9.]+),([-0-9.]+)");
+    for (std::sregex_iterator it(svg.begin(), svg.end(), path), end; it != end; ++it) {
+      const std::string pieces = (*it)[1];
+      for (std::sregex_iterator at(pieces.begin(), pieces.end(), piece); at != end; ++at) {
+        std::array<double, 4> x{};
+        for (std::size_t k = 0; k < 4; ++k) x[k] = std::stod((*at)[k + 1]);
+        length += std::hypot(x[2] - x[0], x[3] - x[1]);
+        left = std::min({left, x[0], x[2]});
+        right = std::max({right, x[0], x[2]});
+        top = std::min({top, x[1], x[3]});
+        bottom = std::max({bottom, x[1], x[3]});
+      }
+    }
+    CHECK(right - left >= 300);
+    CHECK(std::abs(length / (2 * (right - left + bottom - top)) - of_a_box) <= 0.01);
   }
 }

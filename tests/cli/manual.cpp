@@ -205,3 +205,14 @@ TEST_CASE("the topic on expressions has every function that expressions have") {
   }
   CHECK(functions >= 20);
 }
+
+TEST_CASE("the first words of an engineer are topics of the help") {
+  for (const auto& [topic, said] : {std::pair{"friction", "Contacts have no friction"},
+                                    {"contact", "[system.constraints]"},
+                                    {"units", "carry no units"}}) {
+    CAPTURE(topic);
+    const Outcome outcome = run({"help", topic});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find(said) != std::string::npos);
+  }
+}

@@ -277,3 +277,12 @@ TEST_CASE("what is no map is refused with what to do") {
     CHECK(run(words).code == 2);
   }
 }
+
+TEST_CASE("a coordinate for which a map has no component is told so, not as a slip of another") {
+  const std::string two = run({"check", "--map", "[x1, x3]"}).err;
+  CHECK(two.find("--map:1:6") != std::string::npos);
+  CHECK(two.find("two components have x1 and x2; a map has as many components as coordinates") !=
+        std::string::npos);
+  CHECK(run({"check", "--map", "x2"}).err.find("one component has x;") != std::string::npos);
+  CHECK(run({"check", "--map", "[x1/2, exp(-x2)]"}).err.find("unknown") == std::string::npos);
+}

@@ -1,11 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/drawing/gnuplot.hpp"
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -250,4 +252,54 @@ TEST_CASE("a scene with too many contacts to follow each event is stopped at onc
   CHECK(found["status"] == "stopped");
   CHECK(found["why"].get<std::string>().find("time-stepping") != std::string::npos);
   CHECK(run({"simulate", "--json", file, "--method", "time-stepping"}).code == 0);
+}
+
+TEST_CASE("the ordinary choice of auto is told with the motion, and is no warning") {
+  const Folder folder;
+  const std::string file = folder.write("p.toml", pendulum("", "until = 1\nmethod = \"auto\""));
+  const Outcome told = run({"simulate", file});
+  CHECK(told.err.empty());
+  CHECK(told.out.find("Method auto: 1 one-sided constraints, fewer than 300: event-driven") !=
+        std::string::npos);
+  CHECK(MotionJson::parse(run({"simulate", "--json", file}).out)["choice"].get<std::string>().starts_with(
+      "auto: "));
+}
+
+TEST_CASE("a phase curve is round within steps, and marked where it begins and ends") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  // 200 turns of an oscillator.
+  const std::string
+      file = folder.write(
+          "o.toml",
+          "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n[state]\nposition = "
+          "{ x = 1 }\n"),
+      picture = folder.path("p.svg");
+  REQUIRE(run({"simulate", "--quiet", file, "--until", "400*pi", "--phase", "x", "--plot", picture}).code ==
+          0);
+  const std::string svg = whole(picture);
+  CHECK(svg.find("begins") != std::string::npos);
+  // The circle is as wide as the picture; its longest chord is a small part of that.
+  const std::string curve = "<path stroke='rgb(  0, 114, 178)'";
+  double longest = 0;
+  std::size_t points = 0;
+  for (std::size_t at = svg.find(curve); at != std::string::npos; at = svg.find(curve, at + 1)) {
+    const std::size_t begin = svg.find("d='M", at) + 4;
+    std::istringstream path(svg.substr(begin, svg.find('\'', begin) - begin));
+    double x = 0, y = 0, next_x = 0, next_y = 0;
+    char comma = ',';
+    path >> x >> comma >> y;
+    for (std::string mark; path >> mark;) {
+      const std::size_t digits = mark.find_first_not_of("LM");
+      if (digits == std::string::npos) continue;
+      std::istringstream point(mark.substr(digits));
+      if (!(point >> next_x >> comma >> next_y)) continue;
+      if (mark[0] != 'M') longest = std::max(longest, std::hypot(next_x - x, next_y - y));
+      x = next_x;
+      y = next_y;
+      ++points;
+    }
+  }
+  CHECK(points >= 1000);
+  CHECK(longest <= 40);
 }

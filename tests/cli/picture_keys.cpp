@@ -85,6 +85,23 @@ TEST_CASE("keys of many lines stand whole beside the curves, and say how many cu
   for (const char* name : {"y1", "y8", "impact", "accumulation"}) CHECK(times(svg_texts(motion), name) == 1);
 }
 
+TEST_CASE("a few events of a motion are lines, many are marks above the diagrams") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const auto lines_across = [&](const std::string& until) {
+    const std::string svg = drawn({"simulate", folder.write("a.toml", pushed_pistons(2)), "--until", until},
+                                  folder.path("a.svg"));
+    check_legible(svg);
+    CHECK(times(svg_texts(svg), "impact") == 1);
+    const std::regex line("M([-0-9.]+),([-0-9.]+) +L([-0-9.]+),([-0-9.]+)");
+    std::size_t count = 0;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), line), end; it != end; ++it)
+      if ((*it)[1] == (*it)[3] && std::abs(std::stod((*it)[4]) - std::stod((*it)[2])) >= 150) ++count;
+    return count;
+  };
+  CHECK(lines_across("1.5") >= lines_across("8") + 4);  // in each of four diagrams
+}
+
 TEST_CASE("sets of contacts whose long names begin alike are told apart in a sweep and on its map") {
   if (!cli::has_gnuplot()) return;
   const Folder folder;

@@ -102,3 +102,39 @@ TEST_CASE("a sweep finds where one contact takes over from another, not where th
   REQUIRE(found.size() == 1);
   CHECK(std::abs(found[0] - root) <= 2e-12);
 }
+
+TEST_CASE("the JSON of a sweep has its rows, unless a table is written") {
+  const Folder folder;
+  const std::string file =
+      folder.write("a.toml", "[projection]\nA = [[1]]\nz = [-1]\nU = [[1], [-1]]\ns = [0, -1]\n");
+  const std::vector<std::string> asked{"sweep", "--json", file, "--over", "projection.s[0]=0,1,2"};
+  const Json swept = Json::parse(run(asked).out);
+  CHECK(swept.at("rows") == 3);
+  REQUIRE(swept.at("table").size() == 3);
+  const Json row = swept["table"][1];
+  CHECK(row.at("projection.s[0]") == 1);
+  CHECK(row.at("status") == "solved");
+  CHECK(row.at("active") == Json::parse(R"(["c[0]", "c[1]"])"));
+  CHECK(row.at("q[0]''") == 1);
+  CHECK(row.at("lambda[c[0]]").is_number());
+  CHECK(swept["table"][2].at("status") == "infeasible");
+  CHECK(swept["table"][2].at("q[0]''").is_null());
+  std::vector<std::string> written = asked;
+  written.insert(written.end(), {"--output", folder.path("a.csv")});
+  CHECK_FALSE(Json::parse(run(written).out).contains("table"));
+}
+
+TEST_CASE("a sweep tells which point is the first without an answer, and why that one has none") {
+  const Folder folder;
+  const std::string slot =
+      folder.write("a.toml", "[projection]\nA = [[1]]\nz = [-1]\nU = [[1], [-1]]\ns = [0, -1]\n");
+  const std::string one = run({"sweep", slot, "--over", "projection.s[0]=0,2"}).err;
+  CHECK(one.find("1 point has no answer, at projection.s[0] = 2: infeasible") != std::string::npos);
+  // The first is infeasible, the second penetrates.
+  const std::string jam = folder.write(
+      "b.toml",
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n[system.constraints]\nleft = \"x >= "
+      "t^2\"\nright = \"x <= -t^2\"\n[state]\nposition = { x = 0 }\n");
+  const std::string two = run({"sweep", jam, "--over", "t=0,0.1"}).err;
+  CHECK(two.find("2 points have no answer, the first at t = 0: infeasible") != std::string::npos);
+}

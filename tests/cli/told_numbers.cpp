@@ -166,3 +166,46 @@ TEST_CASE("a told number is read from the paragraph before, and another last dig
   CHECK(says(Json(1.4e-17), "1e-17"));
   CHECK_FALSE(says(Json(1.6e-17), "1e-17"));
 }
+
+TEST_CASE("a derivative that cancels to rounding is told as 0") {
+  const tests::Folder folder;
+  // Five legs under a table: nothing moves but what is lifted, about a side that symmetry holds.
+  const std::string file = folder.write("a.toml", R"toml(
+[system]
+coordinates = ["z", "p", "r"]
+kinetic = "z'^2/2 + p'^2/2 + r'^2/2"
+potential = "9.81*z"
+[system.constraints]
+"leg[k in 1..5]" = "z + sin(2*pi*k/5)*r + cos(2*pi*k/5)*p >= 0"
+[state]
+position = { z = 0, p = 0, r = 0 }
+)toml");
+  const std::string text = tests::run({"solve", "--sensitivity", file}).out;
+  CHECK(text.find("a unit more of the bound of leg[5]") != std::string::npos);
+  CHECK(text.substr(text.find("What changes")).find("e-1") == std::string::npos);
+}
+
+TEST_CASE("what stands still at the end of a motion has the velocity and the acceleration 0 in words") {
+  const tests::Folder folder;
+  // A toggle pressed against its stop: a hundred newtons cancel.
+  const std::string file = folder.write("a.toml", R"toml(
+[system]
+coordinates = ["a", "b", "x"]
+kinetic = "J/2*(a'^2+b'^2) + m/2*x'^2"
+parameters = { J = 0.01, m = 1, r = 0.1, l = 0.2, k = 5000, x0 = 0.28, M = -3 }
+potential = "k/2*max(x - x0, 0)^2"
+[system.forces]
+a = "M"
+[system.constraints]
+horiz = "r*cos(a) + l*cos(b) = x"
+vert = "r*sin(a) + l*sin(b) = 0"
+stop = "a >= -0.02"
+[state]
+position = { a = 0.5, b = -0.2, x = 0.28 }
+in_contact = []
+)toml");
+  const std::string text = tests::run({"simulate", file, "--until", "0.5"}).out,
+                    table = text.substr(text.find("q''"), text.find("Steps:") - text.find("q''"));
+  for (const char* row : {"a       -0.02    0     0", "x     0.29997    0     0"})
+    CHECK(table.find(row) != std::string::npos);
+}

@@ -14,7 +14,7 @@ TEST_CASE("a prox in a metric that couples the entries") {
   CHECK(p.v.isApprox(Vector{{1, -0.25}}, 1e-15));  // W(z - x), a subgradient of f at x: a covector
   CHECK(f.is_subgradient(p.v, p.x));
   CHECK(p.status == Status::solved);
-  CHECK(p.error_bound <= 1e-14);  // on ||x - x*||_W, proved for this very result
+  CHECK(p.error_bound <= 1e-14);  // on ||x - x*||_W, measured on this very result
 
   // In the plain metric each entry goes by itself.
   CHECK(f.prox(z, Metric::identity(2)).x == Vector{{2, 0}});
