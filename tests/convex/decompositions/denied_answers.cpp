@@ -90,6 +90,22 @@ TEST_CASE("the slope of -log det is told by an inverse where its prox is near it
   }
 }
 
+TEST_CASE("a far normal of a set does not measure the heights of the maximum beside it") {
+  // On the line of the simplex; the three functions tie at (570000, 1), where 1 and 7 are the slopes, and
+  // the normal of 6e7 hid heights of 7: (569998.7, 2.3) was told, with a bound of 2e-7.
+  const char* f =
+      "sum(pointwise_max(pointwise_max(hinge(),sum(translate(huber(0.25),[570000.25,1.25]),constant(-0.25))),"
+      "sum(translate(squared_hinge(),[570001.21875,-1]),constant(-4.9228515625))),"
+      "translate(sum(indicator(simplex(3.375)),translate(ball2(19.375),[14.15625,16.34375])),"
+      "[569997.46875,0.15625]))";
+  for (const double far : {62400000.0, 624000000.0}) {
+    const Question question{f, {570000 - 5.903125 - far, 1 - far - 3.35}, {570000, 1}};
+    const Decomposition split = split_of(question);
+    CHECK(split.status == Status::solved);
+    CHECK(error_of(split, question) <= split.error_bound);
+  }
+}
+
 TEST_CASE("a value that work cut short is denied by the other prox") {
   // f(z) is +inf: the cone's third entry is below 0 at z, and the entropy only takes from it.
   const Question question{
