@@ -106,6 +106,15 @@ TEST_CASE("a far normal of a set does not measure the heights of the maximum bes
   }
 }
 
+TEST_CASE("a step of a search that leaves the range of doubles ends the search, not the question") {
+  const Metric W = Metric::dense(Matrix{{2, 1}, {1, 2}});
+  const Function f = samples::function(
+      "proximal_average(pointwise_max(exponential(),sum(max(),constant(7000))),norm1())", W);
+  const Decomposition split = decompose(f, Vector{{-4.5, 470}}, W);
+  CHECK(split.status == Status::solved);
+  CHECK((split.x.x - Vector{{2.11463277661919411, 238.731318989510176}}).norm() <= 1e-11);
+}
+
 TEST_CASE("a value that work cut short is denied by the other prox") {
   // f(z) is +inf: the cone's third entry is below 0 at z, and the entropy only takes from it.
   const Question question{
