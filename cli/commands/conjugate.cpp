@@ -178,7 +178,7 @@ Exit tell_conjugate(const FunctionOptions& options) {
     const ConjugateQuestion question = read_question(options, source);
     const convex::Function g = question.f.conjugate(question.W);
     ConjugateAnswer answer{g, domain_text(g, question.W.dimension()), std::nullopt};
-    if (question.y) answer.value = convex::conjugate_value(question.f, *question.y, question.W);
+    if (question.y) answer.value = question.f.conjugate(question.W).evaluate(*question.y);
     if (options.certify || in_fractions(options)) prove_value(question, options, answer);
     answer.status = status_of(answer.value, options);
     if (options.json)

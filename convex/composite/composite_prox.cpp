@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/composite/attained_infimum.hpp"
+#include "convex/composite/epigraph.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
 #include "convex/infinity.hpp"
@@ -115,6 +116,24 @@ std::optional<PairOfValues> values_of(const GraphForm& f, const SaddleProblem& p
                       relative_miss(problem, point)};
 }
 
+/// Are heights measured in a unit so far above the slopes at the solution, the largest that the normals of
+/// epigraphs tell, that a miss in a height, which is rounding in such a unit, moves x? What v tells of slopes
+/// has the normals of sets in it, too. Where a maximum has a small factor, so have the multipliers of its
+/// heights, and the unit counts as little.
+bool hides_heights(const SaddleProblem& problem, const SaddlePoint& point) {
+  constexpr double far_above = 1024;
+  double unit = 0, largest = 0;  // of the slopes, as a part of the unit
+  for (const SaddleTerm& term : problem.terms) {
+    const auto normal = point.y.segment(term.first, term.rows);
+    const double height = std::abs(normal[term.rows - 1]);
+    const auto parts = parts_of_epigraph(*term.f);
+    if (!parts || !(height > 0)) continue;
+    unit = std::max(unit, std::min(height, std::abs(parts->side)));
+    largest = std::max(largest, normal.head(term.rows - 1).norm() / height);
+  }
+  return unit > far_above * std::max(1.0, largest * unit);
+}
+
 }  // namespace
 
 Prox prox(const GraphForm& given, const Vector& z, const Metric& W, const Look& look) {
@@ -162,7 +181,9 @@ Prox prox(const GraphForm& given, const Vector& z, const Metric& W, const Look& 
   const double data = size + root.cwiseProduct(problem.b).norm() + point.y.cwiseQuotient(root).norm();
   const bool solved = error.bound <= accuracy_of_prox * size ||
                       (error.bound <= accuracy_of_prox * data && error.bound <= 2 * error.rounding);
-  found.status = solved ? Status::solved : Status::inaccurate;
+  const bool hidden = f.by_slope && hides_heights(problem, point);
+  if (hidden) found.error_bound = infinity;
+  found.status = solved && !hidden ? Status::solved : Status::inaccurate;
   return found;
 }
 

@@ -60,6 +60,9 @@ NewtonSystem::NewtonSystem(const SaddleProblem& problem, const Vector& t, const 
     : problem_(&problem) {
   Matrix system = problem.G;
   WorkLimit::count(work_of(problem, system.rows()));
+  // A step too far out of the range of doubles is no point to ask a Jacobian for.
+  usable_ = t.allFinite();
+  if (!usable_) return;
   system.diagonal().tail(problem.k) += ridge;
   for (const SaddleTerm& term : problem.terms) {
     curvature_.push_back(curvature_of(term, t.segment(term.first, term.rows),

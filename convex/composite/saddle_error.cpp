@@ -68,6 +68,7 @@ bool is_rounding(const Vector& left, const Vector& residual, const Vector& round
 }  // namespace
 
 SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point) {
+  if (!point.t.allFinite()) return {INFINITY, INFINITY, INFINITY};
   const Rounding rounding = rounding_of(problem, point);
   bool scattered = false;
   for (const SaddleTerm& term : problem.terms) scattered = scattered || !term.separable;

@@ -173,23 +173,4 @@ Decomposition decompose(const Function& f, const Vector& z, const Metric& W, dou
   return split;
 }
 
-Value conjugate_value(const Function& f, const Vector& y, const Metric& W) {
-  const Value told = f.conjugate(W).evaluate(y);
-  if (!std::isfinite(told.value)) return told;
-  Vector x;
-  try {
-    const auto part = WorkLimit::half_of_the_rest();
-    x = f.prox(y, W).x;
-  } catch (const InvalidInput&) {  // it says nothing of the value
-    return told;
-  }
-  if (x.size() != y.size() || !x.allFinite()) return told;
-  const Value at = told_value(f, x);
-  const double least = W.inner(x, y) - at.value;
-  const double rounding = roundings_of_a_term * unit_roundoff *
-                          (W.norm(x) * W.norm(y) + std::abs(at.value) + std::abs(told.value));
-  if (!(least > told.value + told.error + at.error + rounding)) return told;
-  return {least, std::numeric_limits<double>::infinity()};
-}
-
 }  // namespace convex::inline decompositions

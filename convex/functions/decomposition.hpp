@@ -42,8 +42,4 @@ namespace convex::inline decompositions {
 /// z: as many entries as W. Throws InvalidInput when f has another number, or z is not finite.
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance = 1e-9);
 
-/// g(y) = sup_x (x|y) - f(x), and its error; infinite where the value is less than what the supremum is of at
-/// x = prox_f y, by more than its own error: it is wrong then.
-Value conjugate_value(const Function& f, const Vector& y, const Metric& W);
-
 }  // namespace convex::inline decompositions

@@ -61,7 +61,7 @@ class Scale : public Operation {
     return v;
   }
   double error_of_slope(double x, double w) const override {
-    const double y = x / rho_, factor = std::abs(alpha_ / rho_), w_of_y = w * rho_ * rho_ / alpha_;
+    const double y = x / rho_, factor = std::abs(alpha_ / rho_), w_of_y = w * stiffness();
     const double left = std::abs(std::fma(-y, rho_, x) / rho_);
     return factor * (f_.node().error_of_slope(y, w_of_y) + error_of_moved_slope(f_.node(), y, left, w_of_y));
   }
@@ -100,7 +100,7 @@ class Scale : public Operation {
  protected:
   /// x = rho s: ½||x - z||_W² + alpha f(x/rho) is alpha times ½||s - z/rho||² in rho² W / alpha, plus f(s).
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
-    const Metric V = times(rho_ * rho_ / alpha_, W);
+    const Metric V = times(stiffness(), W);
     const auto from = [&](const Vector& point) {
       Prox part = f_.prox(point, V, look);
       if (part.x.size() == 0) return part;
@@ -119,6 +119,12 @@ class Scale : public Operation {
   }
 
  private:
+  /// rho²/alpha, where rho² alone may be no double.
+  double stiffness() const {
+    const double square = rho_ * rho_;
+    return std::isnormal(square) ? square / alpha_ : rho_ / alpha_ * rho_;
+  }
+
   Function f_;
   double alpha_;
   double rho_;

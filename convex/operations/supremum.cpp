@@ -21,8 +21,10 @@ constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+
 constexpr int step_limit = 32;
 constexpr int most_missed = 3;  ///< proxes that do not come out before the end
 
-/// t_k is at least this part of |v|/|x_k|: the prox of a point is right relative to the point.
-constexpr double smallest_part = 1e-6;
+/// t_k is at least this part of |v|/|x_k|: the prox of a point is right relative to the point. Where x_k has
+/// crept for so many steps that is worth less than longer ones.
+constexpr double smallest_part = 1e-6, smallest_creeping = 1e-10;
+constexpr int creeping_steps = 8;
 
 /// Values that agree to this part, of themselves or of `small`, have settled.
 constexpr double settled = 1e-12, small = 1e-3;
@@ -119,6 +121,28 @@ bool is_surpassed(const Function& f, const Vector& v, const Vector& x, double bo
   return false;
 }
 
+/// A point at which v·x - f(x) is more than `bound`, far out along x, where steps that a set keeps beside 0
+/// point to a far maximiser, or at the prox of v; none where neither is.
+std::optional<Vector> surpassing(const Function& f, const Vector& v, const Vector& x, double bound) {
+  constexpr double first = 4, last = 1.0001, most = 1e12;
+  std::optional<Vector> best;
+  const auto consider = [&](const Vector& far) {
+    if (far.size() != v.size() || !far.allFinite()) return;
+    const Value value = f.evaluate(far);
+    const double terms = v.cwiseAbs().dot(far.cwiseAbs()) + std::abs(value.value);
+    const double least = v.dot(far) - value.value - value.error - roundings * unit_roundoff * terms;
+    if (least > bound) best = far, bound = least;
+  };
+  for (double times = first; times <= most && x.norm() > 0; times *= first) consider(times * x);
+  for (double factor = first; best && factor > last; factor = std::sqrt(factor)) {
+    const Vector middle = *best;
+    consider(factor * middle);
+    consider(middle / factor);
+  }
+  consider(prox_of(f, v, 1).x);
+  return best;
+}
+
 struct Search {
   Value value;
   bool growing = false;    ///< the lower bounds grow as if without end
@@ -154,7 +178,8 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
   Value best{-infinity, infinity};
   Vector x_of_best;
   const double unit = std::max(1.0, v.norm());
-  double t = first_step * unit, last = -infinity, highest = -infinity, before = 0, first_length = 0;
+  double part = smallest_part, t = first_step * unit, last = -infinity, highest = -infinity, before = 0,
+         first_length = 0;
   int grown = 0, quiet = 0, missed = 0;
   for (int step = 0; step < step_limit; ++step) {
     const Prox at = prox_of(f, x + v / t, t);
@@ -182,7 +207,16 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
       x_of_best = at.x;
     }
     quiet = free && error <= 2 * enough ? quiet + 1 : 0;
+    // Of one entry chords tell where it is.
+    const bool look_out = n > 1 && (quiet >= 2 || step == creeping_steps || step == 2 * creeping_steps);
+    const auto farther_out = look_out ? surpassing(f, v, at.x, bound + error + enough) : std::nullopt;
+    if (farther_out) {
+      x = *farther_out, quiet = 0, best = {-infinity, infinity};
+      t = std::max(part * v.norm() / x.norm(), last_step);
+      continue;
+    }
     if (quiet >= 2) break;
+    if (n > 1 && step > creeping_steps) part = std::max(part / 2, smallest_creeping);
     grown = increase > growing * before && before > enough ? grown + 1 : 0;
     if (!(first_length > 0)) first_length = at.x.norm();
     const bool far = at.x.norm() >= farther * first_length;
@@ -194,7 +228,7 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
     last = bound;
     x = at.x;
     const double less = std::min(std::pow(t / unit, power), t / unit);
-    t = std::max({unit * less, smallest_part * v.norm() / x.norm(), last_step});
+    t = std::max({unit * less, part * v.norm() / x.norm(), last_step});
     if (!std::isfinite(t)) t = first_step * unit;
   }
   // Proxes cut short, or that cannot get as far as the maximiser, stand still as if the values had settled.

@@ -90,6 +90,31 @@ TEST_CASE("the slope of -log det is told by an inverse where its prox is near it
   }
 }
 
+TEST_CASE("a far normal of a set does not measure the heights of the maximum beside it") {
+  // On the line of the simplex; the three functions tie at (570000, 1), where 1 and 7 are the slopes, and
+  // the normal of 6e7 hid heights of 7: (569998.7, 2.3) was told, with a bound of 2e-7.
+  const char* f =
+      "sum(pointwise_max(pointwise_max(hinge(),sum(translate(huber(0.25),[570000.25,1.25]),constant(-0.25))),"
+      "sum(translate(squared_hinge(),[570001.21875,-1]),constant(-4.9228515625))),"
+      "translate(sum(indicator(simplex(3.375)),translate(ball2(19.375),[14.15625,16.34375])),"
+      "[569997.46875,0.15625]))";
+  for (const double far : {62400000.0, 624000000.0}) {
+    const Question question{f, {570000 - 5.903125 - far, 1 - far - 3.35}, {570000, 1}};
+    const Decomposition split = split_of(question);
+    CHECK(split.status == Status::solved);
+    CHECK(error_of(split, question) <= split.error_bound);
+  }
+}
+
+TEST_CASE("a step of a search that leaves the range of doubles ends the search, not the question") {
+  const Metric W = Metric::dense(Matrix{{2, 1}, {1, 2}});
+  const Function f = samples::function(
+      "proximal_average(pointwise_max(exponential(),sum(max(),constant(7000))),norm1())", W);
+  const Decomposition split = decompose(f, Vector{{-4.5, 470}}, W);
+  CHECK(split.status == Status::solved);
+  CHECK((split.x.x - Vector{{2.11463277661919411, 238.731318989510176}}).norm() <= 1e-11);
+}
+
 TEST_CASE("a value that work cut short is denied by the other prox") {
   // f(z) is +inf: the cone's third entry is below 0 at z, and the entropy only takes from it.
   const Question question{
@@ -102,15 +127,33 @@ TEST_CASE("a value that work cut short is denied by the other prox") {
   CHECK(error_of(split, question) <= 1e-3);
 }
 
-TEST_CASE("no value of a conjugate is told that the supremum surpasses at the prox") {
-  // At (300, 0.125, 360000), in the cone, (x|y) - f(x) = -359702; x = 0 has -360300, and that was told.
-  const Function f =
-      samples::function("sum(rotated_second_order_cone(),translate(norm1(1),[299,0,360001]))", 3);
-  const Value told = conjugate_value(f, Vector{{151, -179999, -1.0625}}, Metric::identity(3));
-  CHECK(told.value + told.error >= -359702.000001);
-  // Where nothing is wrong nothing is denied.
-  const Value plain =
-      conjugate_value(samples::function("norm1()", 2), Vector{{0.5, -1}}, Metric::identity(2));
+TEST_CASE("no value of a conjugate is told that the supremum surpasses far out along its steps") {
+  // Each a slope of f at a point of the cone that is exact in doubles, so that f* is known; the steps of the
+  // search stood still beside 0, and -f(0) was told.
+  struct Claim {
+    const char* f;
+    Vector v;
+    double value;
+  };
+  const Claim claims[] = {
+      {"sum(rotated_second_order_cone(),translate(norm1(1),[299,0,360001]))", Vector{{151, -179999, -1.0625}},
+       -359702},
+      {"sum(rotated_second_order_cone(),translate(log_sum_exp(),[-247.578125,209.875,238152.84375]))",
+       Vector{{-487.0000040294566, -476288, -0.24999597054339862}}, -246.6175549},
+      {"sum(sum(rotated_second_order_cone(),translate(log_sum_exp(),[3.5,1444,-2.875,226098.265625])),"
+       "translate(hinge(),[0.75,294,1,226098.640625]))",
+       Vector{{-1478.4999389581449, 1124082, -267250957.1696646, -2363.9241464505026}}, 17143.930278734}};
+  for (const Claim& claim : claims) {
+    const Function f = samples::function(claim.f, claim.v.size());
+    const Value told = f.conjugate().evaluate(claim.v);
+    CAPTURE(told.value);
+    CHECK(std::abs(told.value - claim.value) <= told.error + 1e-6);
+    // What is made of it has no less of an error.
+    const Value twice = samples::function(std::string("scale(conjugate(") + claim.f + "),2)", claim.v.size())
+                            .evaluate(claim.v);
+    CHECK(std::abs(twice.value - 2 * claim.value) <= twice.error + 1e-6);
+  }
+  const Value plain = samples::function("norm1()", 2).conjugate().evaluate(Vector{{0.5, -1}});
   CHECK(plain.value == 0);
   CHECK(plain.error <= 1e-15);
 }

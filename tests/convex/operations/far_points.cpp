@@ -125,6 +125,30 @@ const Question questions[] = {
 
 }  // namespace
 
+TEST_CASE("a factor whose square is no double is a factor all the same") {
+  // alpha lse moves z by alpha softmax(z) in length, and its conjugate's prox is that.
+  const Vector z{{1, 2}};
+  for (const char* f :
+       {"scale(log_sum_exp(),1e-200)", "scale(max(),1e-200)", "scale(scale(norm2(),1e-200),0.5)"}) {
+    CAPTURE(std::string(f));
+    const auto split = convex::decompose(samples::function(f, 2), z, Metric::identity(2));
+    CHECK(split.status == Status::solved);
+    CHECK((split.x.x - z).norm() <= 1e-15);
+    const auto turned =
+        convex::decompose(samples::function(std::string("conjugate(") + f + ")", 2), z, Metric::identity(2));
+    CHECK(turned.status == Status::solved);
+    CHECK(turned.x.x.norm() <= 1e-15);
+  }
+  // The slope (1, 2) beside it moves z to 0.
+  for (const char* f : {"tilt(scale(log_sum_exp(),1e-200),[1,2])",
+                        "sum(proximal_average(scale(log_sum_exp(),1e-200),zero()),linear([1,2]))"}) {
+    CAPTURE(std::string(f));
+    const auto split = convex::decompose(samples::function(f, 2), z, Metric::identity(2));
+    CHECK(split.status == Status::solved);
+    CHECK(split.x.x.norm() <= 1e-15);
+  }
+}
+
 TEST_CASE("a split of a point far above its parts is solved, and its values agree") {
   for (const Question& question : questions) {
     CAPTURE(std::string(question.f));
