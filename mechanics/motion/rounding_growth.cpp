@@ -9,13 +9,15 @@
 namespace mechanics::inline motions {
 namespace {
 
-/// Row k of Sylvester's matrix gives the signs; `number` counts the entries that are not 0.
-void move_by_a_rounding(Vector& x, unsigned k, unsigned& number) {
-  for (double& entry : x) {
-    if (entry == 0) continue;
-    const double away = std::copysign(std::numeric_limits<double>::infinity(), entry);
-    const double next = std::nextafter(entry, away);
-    entry = std::popcount(k & number++) % 2 == 0 ? next : entry - (next - entry);
+/// Row k of Sylvester's matrix gives the signs; `number` counts the entries that are moved: by a rounding of
+/// their own, or, of those that are 0, of what they become on the way.
+void move_by_a_rounding(Vector& x, const Vector& sizes, unsigned k, unsigned& number) {
+  for (Index i = 0; i < x.size(); ++i) {
+    const double size = x[i] == 0 ? sizes[i] : std::abs(x[i]);
+    if (size == 0) continue;
+    const double by =
+        std::copysign(std::nextafter(size, std::numeric_limits<double>::infinity()) - size, x[i]);
+    x[i] += std::popcount(k & number++) % 2 == 0 ? by : -by;
   }
 }
 
@@ -90,29 +92,30 @@ std::optional<End> end_of(const LagrangianSystem& system, const State& start, co
 
 std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, const State& start,
                                               const MotionOptions& options, const Motion& ended, Index most) {
-  unsigned numbers = 0;
-  State other = start;
-  move_by_a_rounding(other.q, 0, numbers);
-  move_by_a_rounding(other.v, 0, numbers);
-  if (numbers == 0) return std::nullopt;
-  const double dq = (other.q - start.q).lpNorm<Eigen::Infinity>();
-  const double dv = (other.v - start.v).lpNorm<Eigen::Infinity>();
   Sizes sizes{start.q.cwiseAbs(), start.v.cwiseAbs()};
   sizes.take(ended.state());
   MotionOptions beside = options;
   beside.step_limit =
       std::min(options.step_limit, most_steps_of_ended * ended.record().steps + steps_besides);
-  const unsigned order = std::bit_ceil(numbers);
   End end{ended.state()};
-  if (ended.record().impacts > 0)
-    if (const auto again = end_of(system, start, beside, end.state.t, 0, sizes)) end = *again;
+  if (const auto again = end_of(system, start, beside, end.state.t, 0, sizes))
+    if (ended.record().impacts > 0) end = *again;
+  const Sizes on_the_way = sizes;
+  unsigned numbers = 0;
+  State other = start;
+  move_by_a_rounding(other.q, on_the_way.q, 0, numbers);
+  move_by_a_rounding(other.v, on_the_way.v, 0, numbers);
+  if (numbers == 0) return std::nullopt;
+  const unsigned order = std::bit_ceil(numbers);
+  const double dq = (other.q - start.q).lpNorm<Eigen::Infinity>();
+  const double dv = (other.v - start.v).lpNorm<Eigen::Infinity>();
   unsigned followed = 0;
   Vector change_q = Vector::Zero(start.q.size()), change_v = change_q;  // the worst
   for (unsigned k = 0; k < order && k < most; ++k) {
     other = start;
     unsigned number = 0;
-    move_by_a_rounding(other.q, k, number);
-    move_by_a_rounding(other.v, k, number);
+    move_by_a_rounding(other.q, on_the_way.q, k, number);
+    move_by_a_rounding(other.v, on_the_way.v, k, number);
     const std::optional<End> then = end_of(system, other, beside, end.state.t, end.struck, sizes);
     if (!then) continue;
     ++followed;

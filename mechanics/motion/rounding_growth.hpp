@@ -6,7 +6,8 @@
 
 namespace mechanics::inline motions {
 
-/// What errors of one rounding in each number of a state have become.
+/// What errors of one rounding in each number of a state have become; of a number that is 0, one rounding of
+/// the largest that it is on the way.
 struct RoundingGrowth {
   Index coordinate = 0;
   bool of_velocity = false;
@@ -18,8 +19,8 @@ struct RoundingGrowth {
   double bound_over_change = 0;
 };
 
-/// By other motions, from states that are one rounding away in each of the N numbers that are not 0, with
-/// signs from the rows of a Hadamard matrix of order K >= N (Sylvester 1867). With changes Σ_i ±a_i and
+/// By other motions, from states that are so far away in each of the N numbers that do not stay 0, with signs
+/// from the rows of a Hadamard matrix of order K >= N (Sylvester 1867). With changes Σ_i ±a_i and
 /// orthogonal columns, Σ_k (Σ_i H_ki a_i)² = K ‖a‖², so that the worst is at least ‖a‖₂ >= ‖a‖₁/√N, and ‖a‖₁
 /// is what all signs can make of them. Of K rows the first `most` are tried. Where digits are lost
 /// exponentially, as near an unstable orbit, none of those printed may be left. Nothing, where none of those
