@@ -131,12 +131,16 @@ void Motion::EventDriven::watch() {
     one.zeros = zeros;
     c = c.subspan(static_cast<std::size_t>(zeros));
     // On a branch that is not taken they may leave the range of doubles; half of them tell where it ends.
-    if (!std::isfinite(c[0])) c = {};  // nothing is asked of it, on a branch that is not taken
+    if (!std::isfinite(c[0])) {  // on a branch that is not taken, or yet to come from a pole
+      c = {};
+      if (of == Zero::Of::branch) without_value_.push_back(static_cast<std::size_t>(which));
+    }
     const std::size_t enough = c.size() / 2;
     while (c.size() > enough && !std::isfinite(c.back())) c = c.first(c.size() - 1);
     one.c.assign(c.begin(), c.end());
     one.rounding = rounding;
   };
+  without_value_.clear();
   is_held_.assign(system.constraints().size(), false);
   for (const Index a : persist_) is_held_[static_cast<std::size_t>(a)] = true;
   for (Index a = 0; a < expansion_.constraints(); ++a) {

@@ -48,6 +48,7 @@ class Motion::EventDriven final : public Motion::Course {
   void land_softly(Zero& zero, double end) const;
   bool fits(double tau, int halvings);
   bool is_met(double at, double tau, bool may_leave_zero);
+  bool is_met_on_branches(double at, double tau, bool may_leave_zero);
   double pull_of_weak(const Vector& lambda);
   bool is_passed(double tau);
   void move_time(double by);
@@ -156,7 +157,8 @@ class Motion::EventDriven final : public Motion::Course {
     std::vector<double> rounding_of_zero = {};  ///< and makes of it on the next arc, by order
     int zeros = 0;                              ///< leading ones on the next arc
   };
-  std::vector<Argument> arguments_;                  // by switch
+  std::vector<Argument> arguments_;         // by switch
+  std::vector<std::size_t> without_value_;  // switches whose argument is not finite as the next arc begins
   std::vector<ContactQuestion::Unloaded> unloaded_;  // in the event at hand
   std::vector<bool> is_weak_;                        // held without a multiplier
   std::vector<double> least_multiplier_;  // of a weak one: what is less, rounding made at the arc's beginning

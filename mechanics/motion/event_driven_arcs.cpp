@@ -62,9 +62,22 @@ bool Motion::EventDriven::fits(double tau, int halvings) {
   return is_met(tau, tau, may_leave_zero);
 }
 
-/// The same at one of its times.
+/// The same at one of its times. What had no value at the beginning of the arc, as 10/|v| at rest, is on the
+/// side there that it has by then.
 bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
   next.state(at, there_, expected_q2_);
+  std::vector<std::size_t> turned;
+  if (!without_value_.empty()) expansion_.look_at_arguments(there_);
+  for (const std::size_t k : without_value_)
+    if (expansion_.switch_argument(k)[0] * expansion_.branch(k) < 0) turned.push_back(k);
+  for (const std::size_t k : turned) expansion_.branch(k) *= -1;
+  const bool is_met = is_met_on_branches(at, tau, may_leave_zero);
+  if (!is_met || at < tau)
+    for (const std::size_t k : turned) expansion_.branch(k) *= -1;
+  return is_met;
+}
+
+bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_leave_zero) {
   double pull = 0;
   try {
     expansion_.set(there_);
@@ -243,6 +256,7 @@ void Motion::EventDriven::fill_next() {
   is_blind_ = is_cut_ || (!expansion_.arguments().empty() &&
                           (step_ahead_ < told || std::isinf(told) || is_rising(sizes_, step_ahead_)));
   watch();
+  is_blind_ = is_blind_ || !without_value_.empty();
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
       step_ahead_ = std::min(step_ahead_, std::max(trusted_length(one.c, tolerance), rounding_of_time(0)));

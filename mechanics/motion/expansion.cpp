@@ -81,6 +81,11 @@ void Expansion::look_at_constraints(const State& state) {
   for (std::size_t group = 0; group < 3; ++group) series_.find_values(group);
 }
 
+void Expansion::look_at_arguments(const State& state) {
+  take(state);
+  begin();
+}
+
 void Expansion::look_at(const State& state) {
   take(state);
   series_.bases_at_zero().clear();

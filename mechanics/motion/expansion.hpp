@@ -63,6 +63,8 @@ class Expansion {
   void look_at(const State& state);
   /// f and df/dt alone.
   void look_at_constraints(const State& state);
+  /// The arguments of switches alone, whether all else has a value or not.
+  void look_at_arguments(const State& state);
   const State& state() const { return state_; }
   const convex::Metric& inertia() const;
   /// Takes note that the motion has come by here: what rounding may have made of a coordinate near 0 is that

@@ -202,3 +202,13 @@ TEST_CASE("a band of small velocities is entered however slow the velocity is in
     }
   }
 }
+
+TEST_CASE("a motor of constant power starts from rest by the torque to which it is limited") {
+  const Followed cut = followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "min(5, 10/abs(x')) - 0.1*x'"}}, {}},
+                                state({0}, {0}), 20),
+                 told = followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "if(x' < 2, 5, 10/x') - 0.1*x'"}}, {}},
+                                 state({0}, {0}), 20);
+  CHECK(cut.motion.status() == mechanics::MotionStatus::done);
+  CHECK(cut.end().q[0] == doctest::Approx(told.end().q[0]).epsilon(1e-12));
+  CHECK(cut.of(mechanics::EventKind::branch).size() == 1);
+}
