@@ -1,5 +1,7 @@
 #include "mechanics/motion/motion.hpp"
 
+#include <limits>
+
 #include "mechanics/motion/event_driven.hpp"
 #include "mechanics/motion/time_stepping.hpp"
 #include "mechanics/number_text.hpp"
@@ -82,7 +84,13 @@ const std::vector<MotionEvent>& Motion::events() const { return course_->events;
 const State& Motion::state() const { return course_->state; }
 const Vector& Motion::acceleration() const { return course_->acceleration; }
 const Vector& Motion::multipliers() const { return course_->multipliers; }
-double Motion::energy() const { return course_->system.energy(course_->state); }
+double Motion::energy() const {
+  try {
+    return course_->system.energy(course_->state);
+  } catch (const convex::InvalidInput&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
 MotionMethod Motion::method() const { return course_->options.method; }
 MotionStatus Motion::status() const { return course_->status; }
 const std::string& Motion::why() const { return course_->why; }

@@ -120,6 +120,7 @@ class Motion {
   /// Right limits at this state: q'' and the multipliers of all constraints; empty where the motion has none.
   const Vector& acceleration() const;
   const Vector& multipliers() const;
+  /// T + V; infinite where it is no double, as of a fall into a pole.
   double energy() const;
 
   MotionMethod method() const;

@@ -212,3 +212,12 @@ TEST_CASE("a motor of constant power starts from rest by the torque to which it 
   CHECK(cut.end().q[0] == doctest::Approx(told.end().q[0]).epsilon(1e-12));
   CHECK(cut.of(mechanics::EventKind::branch).size() == 1);
 }
+
+TEST_CASE("a fall into a pole stops, and what is known by then is told") {
+  const Followed fall =
+      followed({{"r", "a"}, "(r'^2 + r^2*a'^2)/2", "", {}, {}, {{"r", "-1/r^2"}, {"a", "-a'"}}, {}},
+               state({0.8, 0}, {0, 0.5}), 5);
+  CHECK(fall.motion.status() == mechanics::MotionStatus::stopped);
+  CHECK(fall.end().t < 0.9);
+  CHECK(fall.motion.energy() > 0);  // of a' beyond 1e154
+}

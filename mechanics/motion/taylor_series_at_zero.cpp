@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/motion/taylor_series.hpp"
+
+/// Roots and powers of what is 0, whose derivatives are not finite where it does not stay 0.
+namespace mechanics::inline motions {
+
+using Kind = TaylorStep::Kind;
+
+/// Whether the result is 0 all along, as max(-x, 0) is on the branch x > 0: derivatives of a power of it are
+/// 0 then, though those of the power itself are not finite there.
+bool TaylorSeries::stays_zero(const TaylorStep& step) const {
+  switch (step.kind) {
+    case Kind::sum:
+    case Kind::difference:
+      return stays_zero_[step.a] && stays_zero_[step.b];
+    case Kind::product:
+      return stays_zero_[step.a] || stays_zero_[step.b];
+    case Kind::negative:
+    case Kind::absolute:
+    case Kind::share:
+    case Kind::square:
+    case Kind::root:
+    case Kind::quotient:
+      return stays_zero_[step.a];
+    case Kind::power:
+      return stays_zero_[step.a] && step.number > 0;
+    case Kind::multiple:
+      return stays_zero_[step.b];
+    case Kind::where_not_negative:
+      return stays_zero_[step.b] || branch(step) < 0;
+    case Kind::where_negative:
+      return stays_zero_[step.b] || branch(step) >= 0;
+    case Kind::either:
+      return branch(step) != 0 && stays_zero_[branch(step) > 0 ? step.a : step.b];
+    default:
+      return false;
+  }
+}
+
+/// What a root or a power is taken of.
+double TaylorSeries::base(const TaylorStep& step) {
+  double& a = at(step.a)[0];
+  if (std::find(bases_at_zero_.begin(), bases_at_zero_.end(), step.a) != bases_at_zero_.end()) a = 0;
+  return a;
+}
+
+/// Of a power of 0.
+void TaylorSeries::differentiate_at_zero(const TaylorStep& step, double exponent, double& by,
+                                         double& factor) {
+  by = factor = 0;
+  if (stays_zero_[step.a]) return;
+  const int order = static_cast<int>(std::ceil(exponent));
+  without_bound_ = without_bound_ == 0 ? order : std::min(without_bound_, order);
+}
+
+}  // namespace mechanics::inline motions
