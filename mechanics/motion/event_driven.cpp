@@ -255,7 +255,7 @@ void Motion::EventDriven::take_step(double until) {
       land_softly(zero, end);
       tau = std::min(tau, zero.at);
     }
-    if (tau <= 0 || fits(tau, halvings)) break;
+    if ((tau <= 0 && (is_last || !zeros.empty())) || fits(tau, halvings)) break;
     end = 0.5 * tau;
     is_last = false;
   }
