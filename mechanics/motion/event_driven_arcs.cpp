@@ -211,8 +211,8 @@ bool Motion::EventDriven::may_leave_rest() {
           const auto answer = acceleration_off_zero(beside, at_zero);
           return answer ? side * answer->x[i] : 0.0;
         };
-        const double by_near = push(near);
-        may_leave = may_leave || (by_near > least_push * size && by_near / near > steeper * push(far) / far);
+        const double here = push(0), by_near = push(near) - here, by_far = push(far) - here;
+        may_leave = may_leave || (by_near > least_push * size && by_near / near > steeper * by_far / far);
       }
     expansion_.set(state);
     expansion_.expand({persist_, {}});

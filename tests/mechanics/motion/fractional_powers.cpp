@@ -142,6 +142,16 @@ TEST_CASE("a force that begins at rest as a power of the time is followed from t
   }
 }
 
+TEST_CASE("a body waits at rest for a force that begins as a root of the time") {
+  for (const double power : {0.5, 1.5}) {
+    CAPTURE(power);
+    const Followed motion = pushed("max(t - 1, 0)^" + std::to_string(power), 1, 0, 3);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] ==
+          doctest::Approx(1 + std::pow(2, power + 2) / ((power + 1) * (power + 2))).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a spring of Hertz takes up a force that begins at 0") {
   const Followed pressed = pushed("-40*max(x, 0)^1.5 + t", 0, 0, 5),
                  by_if = pushed("if(x > 0, -40*x^1.5, 0) + t", 0, 0, 5);
