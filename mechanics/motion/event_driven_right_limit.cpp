@@ -49,7 +49,9 @@ double Motion::EventDriven::terms_of_argument(std::size_t k, double tau) const {
 double Motion::EventDriven::rate_of_argument(std::size_t k, double tau) const {
   if (watched_.size() < expansion_.switches() || !(tau > 0)) return 0;
   const Watched& one = watched_[watched_.size() - expansion_.switches() + k];
-  return std::abs(std::pow(tau, one.zeros) * (slope_at(one.c, tau) + one.zeros * value_at(one.c, tau) / tau));
+  const double rate =
+      std::pow(tau, one.zeros) * (slope_at(one.c, tau) + one.zeros * value_at(one.c, tau) / tau);
+  return std::isfinite(rate) ? std::abs(rate) : 0;  // near where a derivative has no bound, nothing is known
 }
 
 /// Whether an argument is 0 at the end of the arc, as far as its series there tells.
@@ -66,7 +68,7 @@ double Motion::EventDriven::left_of_argument(std::size_t k, double tau) {
   double left = 0;
   for (std::size_t j = argument.rounding_of_zero.size(); j-- > 1;)
     left = (left + argument.rounding_of_zero[j]) * tau;
-  return argument.left_of_zero + left;
+  return argument.left_of_zero + (std::isfinite(left) ? left : 0);
 }
 
 /// Whether an argument that stayed 0 does so no longer, at a time of the next arc.
@@ -138,7 +140,7 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   const double beyond = -expansion_.switch_argument(k)[0] * expansion_.branch(k);
   if (!(beyond > 0) || !(is_cut_ || expansion_.has_angle(k))) return false;
   const double digits = half_the_digits * terms_of_argument(k, tau);
-  return digits > 0 && beyond > digits + expansion_.rounding_of_argument(k);
+  return (digits > 0 || is_cut_) && beyond > digits + expansion_.rounding_of_argument(k);
 }
 
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
@@ -159,7 +161,7 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
   for (std::size_t i = c.size(); i-- > 1;) terms = (terms + std::abs(c[i])) * moment;
   const double farthest =
       roundings_at_zero * (by_rounding[0] + std::max(terms, argument.rate_behind * moment));
-  argument.width_of_zero = std::max(argument.left_of_zero, farthest);
+  argument.width_of_zero = std::max(argument.left_of_zero, std::isfinite(farthest) ? farthest : 0);
   std::size_t first = std::abs(c[0]) > argument.width_of_zero ? 0 : 1;
   while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) {
     if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
@@ -198,7 +200,7 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
     const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
     // Where rounding is more than half the digits of what it was on the arc, as near a pole, it is no sign of
     // 0.
-    if (is_at_zero && (was_off || rounding <= half_the_digits * arguments_[k].terms_behind))
+    if (is_at_zero && (was_off || argument == 0 || rounding <= half_the_digits * arguments_[k].terms_behind))
       at_zero.push_back(static_cast<Index>(k));
     if (branch == expansion_.branch(k)) continue;
     expansion_.branch(k) = branch;

@@ -203,6 +203,19 @@ TEST_CASE("a spring of Hertz with damping that does not pull lets go, however it
   }
 }
 
+TEST_CASE("a damper cut off at 0 works at each stroke") {
+  const std::string spring = "-100*abs(x)^1.5*sign(x)";
+  const Followed told = pushed("-if(x > 0.5, 100*(x - 0.5)^1.5*max(1 + 0.5*x', 0), 0)" + spring, 1, 0, 3);
+  for (const char* damper : {"-max(if(x > 0.5, 100*(x - 0.5)^1.5*(1 + 0.5*x'), 0), 0)",
+                             "-if(x > 0.5, max(100*(x - 0.5)^1.5*(1 + 0.5*x'), 0), 0)",
+                             "-max(100*max(x - 0.5, 0)^1.5*(1 + 0.5*x'), 0)"}) {
+    CAPTURE(damper);
+    const Followed motion = pushed(damper + spring, 1, 0, 3);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(told.end().q[0]).epsilon(1e-8));
+  }
+}
+
 TEST_CASE("a root from whose 0 several motions lead is refused where |x| is in it, too") {
   for (const char* force : {"sqrt(x)", "sqrt(abs(x))", "12*sqrt(max(x, 0))"}) {
     CAPTURE(force);
