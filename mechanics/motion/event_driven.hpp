@@ -173,9 +173,9 @@ class Motion::EventDriven final : public Motion::Course {
   Vector q2_, expected_q2_;       // there, by the equations and by the series
   double reach_;                  // of arguments in a step
   bool is_blind_ = false;         // the step ahead is not the one that its series tell
-  bool ends_early_ = false;
-  long cut_in_a_row_ = 0;
-  bool is_cut_ = false;  // on the next arc: its series have few orders
+  bool is_cut_ = false;           // on the next arc: a derivative has no bound as it begins
+  bool ends_early_ = false;       // and its series end before that
+  long cut_in_a_row_ = 0;         // arcs of that kind, one after the other
   double step_ahead_ = 0;
   long events_at_once_ = 0, kinks_at_once_ = 0;
   long mark_ = -1, impacts_at_mark_ = 0;  // steps, impacts and time where progress was looked at last
