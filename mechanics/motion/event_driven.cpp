@@ -96,7 +96,7 @@ bool Motion::EventDriven::advance(double until) {
     return false;
   }
   until_ = until;
-  const double before = since_start_, low_before = low_;
+  const double before = since_start_, low_before = low_, clock_before = state.t;
   try {
     take_step(until);
   } catch (const convex::InvalidInput& error) {
@@ -108,7 +108,8 @@ bool Motion::EventDriven::advance(double until) {
                                 ", as where a motion comes to infinity in a finite time"
                           : ""));
   }
-  const bool goes_on = since_start_ > before;
+  // Expressions with t in them see no time go by that is not told in it.
+  const bool goes_on = since_start_ > before && (!expansion_.uses_time() || state.t > clock_before);
   events_at_once_ = goes_on ? 0 : events_at_once_ + 1;
   kinks_at_once_ = goes_on ? 0 : kinks_at_once_;
   const auto m = static_cast<long>(system.constraints().size());

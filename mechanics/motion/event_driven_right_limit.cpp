@@ -175,8 +175,8 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
     for (std::size_t j = first + 1; is_double && j < c.size(); ++j)
       if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;
     // What is left of a rest, c_0 or c_1, moves on by itself, and stays within that for as long as it took to
-    // come here.
-    const bool is_left = c[0] != 0 || c[1] != 0;
+    // come here, from farther.
+    const bool is_left = (c[0] != 0 || c[1] != 0) && argument.terms_behind > farthest;
     if (is_left && since_event_ > instants_until_rest * moment && width(first) > since_event_)
       first = c.size();
   }

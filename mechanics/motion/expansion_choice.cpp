@@ -93,7 +93,7 @@ bool Expansion::find_bases_at_zero() {
   std::vector<Slot>& found = series_.bases_at_zero();
   const std::size_t before = found.size();
   for (const TaylorStep& step : steps_.steps) {
-    if (!takes_base(step)) continue;
+    if (!takes_base(step) || std::find(found.begin(), found.end(), step.a) != found.end()) continue;
     const double base = series_[step.a][0];
     if (base != 0 && std::abs(base) <= rounding(0) * if_finite(magnitude_.at(step.a, 0)))
       found.push_back(step.a);

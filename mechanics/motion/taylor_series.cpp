@@ -161,7 +161,7 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       return;
     }
     case Kind::root: {  // f² = a
-      if (a == 0) return differentiate_at_zero(step, 0.5, by[0].c, factor[0]);
+      if (base(step) == 0) return differentiate_at_zero(step, 0.5, by[0].c, factor[0]);
       const double inverse = 1 / (2 * f);
       by[0].c = inverse;
       factor[0] = -inverse;
@@ -202,7 +202,8 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       factor[0] = 1 / p;
       return;
     case Kind::power:  // a f' = e f a'
-      if (a == 0 && step.number > 0) return differentiate_at_zero(step, step.number, by[0].c, factor[0]);
+      if (step.number > 0 && base(step) == 0)
+        return differentiate_at_zero(step, step.number, by[0].c, factor[0]);
       by[0].c = step.number * f / a;
       factor[0] = 1 / a;
       return;

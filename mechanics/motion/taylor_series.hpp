@@ -77,7 +77,7 @@ class TaylorSeries {
   const double* at(Slot series) const { return c_.data() + place_[series]; }
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
   double value(const TaylorStep& step);
-  double base(const TaylorStep& step);
+  double base(const TaylorStep& step) const;
   bool stays_zero(const TaylorStep& step) const;
   void differentiate_at_zero(const TaylorStep& step, double exponent, double& by, double& factor);
   void differentiate(const TaylorStep& step, std::uint32_t row);

@@ -39,11 +39,12 @@ bool TaylorSeries::stays_zero(const TaylorStep& step) const {
   }
 }
 
-/// What a root or a power is taken of.
-double TaylorSeries::base(const TaylorStep& step) {
-  double& a = at(step.a)[0];
-  if (std::find(bases_at_zero_.begin(), bases_at_zero_.end(), step.a) != bases_at_zero_.end()) a = 0;
-  return a;
+/// What a root or a power is taken of. One that counts as 0 is left what it is elsewhere: it may be a
+/// velocity, which has to move on.
+double TaylorSeries::base(const TaylorStep& step) const {
+  const bool counts_as_zero =
+      std::find(bases_at_zero_.begin(), bases_at_zero_.end(), step.a) != bases_at_zero_.end();
+  return counts_as_zero ? 0 : (*this)[step.a][0];
 }
 
 /// Of a power of 0.

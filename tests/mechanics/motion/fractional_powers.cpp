@@ -237,3 +237,30 @@ TEST_CASE("a forced body between two springs of Hertz, or under drag by a power,
     CHECK(motion.end().v[0] == doctest::Approx(one.v).epsilon(1e-7));
   }
 }
+
+TEST_CASE(
+    "a body that rises from a soft spring to the velocity 0 where the spring is at rest falls back on it") {
+  // The top of each swing is at x = 0 but for rounding, where |x|^(3/2) has no second derivative.
+  const Followed motion = pushed("-9.81 - 1000*abs(x)^1.5*sign(x)", 0, 0, 4);
+  CHECK(motion.motion.status() == MotionStatus::done);
+  const double x = motion.end().q[0], v = motion.end().v[0];
+  CHECK(std::abs(v * v / 2 + 9.81 * x + 400 * std::pow(std::abs(x), 2.5)) < 1e-12);
+  const Followed one_sided = pushed("-9.81 + 1000*max(-x, 0)^1.5", 0, 0, 4);
+  CHECK(x == doctest::Approx(one_sided.end().q[0]).epsilon(1e-9));
+  CHECK(v == doctest::Approx(one_sided.end().v[0]).epsilon(1e-9));
+}
+
+TEST_CASE("a velocity turns under drag by two powers of it, in the time that their quadrature tells") {
+  const auto drag = [](double v) { return 0.3 * std::pow(v, 1.5) + 0.2 * std::sqrt(v); };
+  for (const char* force : {"1 - 0.3*abs(x')^1.5*sign(x') - 0.2*abs(x')^0.5*sign(x')",
+                            "1 - 0.3*abs(x')^1.5*sign(x') - 0.2*(x'^2)^0.25*sign(x')"}) {
+    CAPTURE(force);
+    const Followed motion = pushed(force, 0, -1, 5);
+    REQUIRE(motion.motion.status() == MotionStatus::done);
+    REQUIRE(motion.end().v[0] > 0);
+    const double slowing = integral_of_squares(0, 1, [&](double v) { return 1 / (1 + drag(v)); }),
+                 gaining =
+                     integral_of_squares(0, motion.end().v[0], [&](double v) { return 1 / (1 - drag(v)); });
+    CHECK(slowing + gaining == doctest::Approx(5).epsilon(1e-10));
+  }
+}
