@@ -132,12 +132,12 @@ void Motion::EventDriven::watch() {
     one.zeros = zeros;
     c = c.subspan(static_cast<std::size_t>(zeros));
     // On a branch that is not taken they may leave the range of doubles; half of them tell where it ends.
-    if (!std::isfinite(c[0])) {  // on a branch that is not taken, or yet to come from a pole
+    const std::size_t enough = c.size() / 2;
+    while (c.size() > enough && !std::isfinite(c.back())) c = c.first(c.size() - 1);
+    if (!std::isfinite(c[0]) || !std::isfinite(c.back())) {  // not taken, or yet to come from a pole
       c = {};
       if (of == Zero::Of::branch) without_value_.push_back(static_cast<std::size_t>(which));
     }
-    const std::size_t enough = c.size() / 2;
-    while (c.size() > enough && !std::isfinite(c.back())) c = c.first(c.size() - 1);
     one.c.assign(c.begin(), c.end());
     one.rounding = rounding;
   };

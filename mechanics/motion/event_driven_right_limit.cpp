@@ -170,7 +170,8 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
   const bool is_double = first > 1 || (first == 1 && !argument.crosses);
   if (record.steps > 0 && first > 0 && first < c.size() && farthest > 0) {
     const auto width = [&](std::size_t j) {
-      return std::pow(farthest / std::abs(c[j]), 1 / static_cast<double>(j));
+      const double root = 1 / static_cast<double>(j);  // their quotient may be no double
+      return std::pow(farthest, root) / std::pow(std::abs(c[j]), root);
     };
     for (std::size_t j = first + 1; is_double && j < c.size(); ++j)
       if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;

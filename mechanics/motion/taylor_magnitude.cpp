@@ -120,15 +120,23 @@ void TaylorMagnitude::amplify(const TaylorStep& step, std::uint32_t row) {
   }
 }
 
+/// |c_k| of a series, no more than what it is the sum of where it is not known yet.
+double TaylorMagnitude::size(Slot series, int k) {
+  const std::span<const double> c = of_[series];
+  const auto order = static_cast<std::size_t>(k);
+  return order < c.size() ? std::min(at(series, k), std::abs(c[order])) : 0;
+}
+
 /// Σ |s| |R_k| over the products of a row.
 double TaylorMagnitude::rest(const TaylorRows::Row& row, int k) {
   double sum = 0;
   for (std::uint32_t p = row.first_product; p < row.end_product; ++p) {
     const TaylorRows::Product& product = of_.rows_.products[p];
-    double of_product = 0;
+    double of_all = 0;
     for (int j = 1; j < k; ++j)
-      of_product += (product.is_weighted ? j : 1) * at(product.x, j) * at(product.y, k - j);
-    sum += std::abs(product.scale) * of_product / (product.is_weighted ? k : 1);
+      of_all += (product.is_weighted ? j : 1) * of_product(size(product.x, j), at(product.x, j),
+                                                           size(product.y, k - j), at(product.y, k - j));
+    sum += std::abs(product.scale) * of_all / (product.is_weighted ? k : 1);
   }
   return sum;
 }
@@ -138,7 +146,11 @@ void TaylorMagnitude::find(std::size_t group, int k) {
   for (std::size_t r = group == 0 ? 0 : rows.ends[group - 1].rows; r < rows.ends[group].rows; ++r) {
     const TaylorRows::Row& row = rows.rows[r];
     double sum = std::abs(of_.factor_[r]) * rest(row, k);
-    for (std::uint32_t t = row.first; t < row.end; ++t) sum += slopes_[t] * at(of_.terms_[t].series, k);
+    for (std::uint32_t t = row.first; t < row.end; ++t) {
+      const TaylorRows::Term& term = of_.terms_[t];
+      sum += of_product(std::min(slopes_[t], std::abs(term.c)), slopes_[t], size(term.series, k),
+                        at(term.series, k));
+    }
     at(row.out, k) = sum;
   }
 }

@@ -30,6 +30,7 @@ class TaylorMagnitude {
   std::size_t width() const { return static_cast<std::size_t>(of_.order_) + 1; }
   void begin_step(const TaylorStep& step, std::uint32_t row);
   void amplify(const TaylorStep& step, std::uint32_t row);
+  double size(Slot series, int k);
   double rest(const TaylorRows::Row& row, int k);
 
   const TaylorSeries& of_;

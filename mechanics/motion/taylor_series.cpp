@@ -123,8 +123,8 @@ double TaylorSeries::value(const TaylorStep& step) {
       return expression::value(static_cast<Operation>(step.b), a, a);
     case Kind::angle:
       return expression::atan2(a, b);
-    case Kind::absolute:
-      return branch(step) * a;
+    case Kind::absolute:  // what rounding leaves of an argument at 0 may be on the other side
+      return branch(step) == 0 ? 0 : std::abs(a);
     case Kind::where_not_negative:
       return branch(step) >= 0 ? b : 0;
     case Kind::where_negative:

@@ -213,6 +213,22 @@ TEST_CASE("a motor of constant power starts from rest by the torque to which it 
   CHECK(cut.of(mechanics::EventKind::branch).size() == 1);
 }
 
+TEST_CASE("a motor of constant power brakes a body, and drives it on when it has turned") {
+  const auto driven = [](const std::string& force, double v) {
+    return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({-1}, {v}), 4);
+  };
+  for (const char* spring : {"-x", "-100*x", "-abs(x)^1.5*sign(x)", "-9.81"})
+    for (const double v : {3.0, -1.0}) {
+      CAPTURE(spring);
+      CAPTURE(v);
+      const Followed cut = driven("0.5*min(3, 1/abs(x')) + " + std::string(spring), v),
+                     told = driven("0.5*if(abs(x') < 1/3, 3, 1/abs(x')) + " + std::string(spring), v);
+      CHECK(cut.motion.status() == mechanics::MotionStatus::done);
+      CHECK(cut.end().q[0] == doctest::Approx(told.end().q[0]).epsilon(1e-9));
+      CHECK(cut.end().v[0] == doctest::Approx(told.end().v[0]).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("a fall into a pole stops, and what is known by then is told") {
   const Followed fall =
       followed({{"r", "a"}, "(r'^2 + r^2*a'^2)/2", "", {}, {}, {{"r", "-1/r^2"}, {"a", "-a'"}}, {}},

@@ -75,3 +75,19 @@ TEST_CASE("impacts come to an end where doubles hardly tell its time") {
   REQUIRE(motion.of(EventKind::accumulation).size() == 1);
   CHECK(motion.of(EventKind::accumulation)[0].t == -1e8 + lasts);
 }
+
+TEST_CASE("a pulse lifts a body off its floor at a late time as it does at an early one") {
+  const auto lifted = [](double start) {
+    const std::string pulse = "1000*exp(-((t - " + std::to_string(start) + " - 0.3)/0.01)^4) - 9.81";
+    const SystemText text{{"y"}, "y'^2/2", "", {}, {}, {{"y", pulse}}, {{"floor", "y >= 0"}}};
+    return followed(text, {start, Vector{{0}}, Vector{{0}}}, start + 2, restitution(text, 0));
+  };
+  const Followed soon = lifted(0);
+  for (const double start : {100.0, 200.0, 500.0, 2000.0}) {
+    CAPTURE(start);
+    const Followed late = lifted(start);
+    REQUIRE(late.motion.status() == MotionStatus::done);
+    CHECK(late.of(EventKind::release).size() == 1);
+    CHECK(late.end().q[0] == doctest::Approx(soon.end().q[0]).epsilon(1e-8));  // the pulse is t's to 1e-11
+  }
+}
