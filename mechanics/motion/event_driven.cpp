@@ -37,6 +37,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
   arguments_.resize(expansion_.switches());
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) may_jump_ = may_jump_ || expansion_.may_jump(k);
   is_weak_.assign(m, false);
   least_multiplier_.assign(m, 0.0);
   is_blurred_.assign(m, false);
@@ -244,11 +245,15 @@ void Motion::EventDriven::take_step(double until) {
   std::vector<Zero> zeros;
   double tau = end;
   obstacle_.clear();
+  across_.clear();
   for (int halvings = 0;; ++halvings) {
-    if (halvings > most_halvings || (halvings > 0 && !(clock() + end > clock())))
+    if (halvings > most_halvings || (halvings > 0 && !(clock() + end > clock()))) {
+      for (const Index k : across_) zeros.push_back({Zero::Of::branch, k, tau, false, false, true});
+      if (!across_.empty()) break;
       return stop("at t = " + number_text(state.t) + ": " +
                   (obstacle_.empty() ? "no step, however short, keeps the tolerance" : obstacle_) +
                   "; the motion ends here, or the expressions have to be written otherwise");
+    }
     zeros = first_zeros(watched_, end, rounding_of_time(end));
     tau = end;
     for (Zero& zero : zeros) {
@@ -256,12 +261,14 @@ void Motion::EventDriven::take_step(double until) {
       land_softly(zero, end);
       tau = std::min(tau, zero.at);
     }
-    if ((tau <= 0 && (is_last || !zeros.empty())) || fits(tau, halvings)) break;
+    const auto is_past = [&](const Zero& zero) { return distance_of_zero(zero, tau) < 0; };
+    if (tau <= 0 && (is_last || !zeros.empty())) break;
+    if (fits(tau, halvings) && std::none_of(zeros.begin(), zeros.end(), is_past)) break;
     end = 0.5 * tau;
     is_last = false;
   }
   ++record.steps;
-  const bool is_there = tau > 0;  // by `fits`
+  const bool is_there = tau > 0 && across_.empty();  // by `fits`
   if (!is_there) next.state(tau, there_, expected_q2_);
   if (zeros.size() > 1) {
     const Zero first = *std::min_element(zeros.begin(), zeros.end(),
@@ -287,6 +294,7 @@ void Motion::EventDriven::take_step(double until) {
   if (!is_there || (state.t != there_.t && expansion_.uses_time())) expansion_.set(state);
   look_for_penetration();
   if (status != MotionStatus::done) return;
+  std::erase_if(zeros, [&](const Zero& zero) { return distance_of_zero(zero, tau) > 0; });
   if (is_last && zeros.empty() && tau > 0) zeros = closing_at_the_end();
   if (!zeros.empty()) close_together(zeros);
   zeros.empty() ? continue_arc() : handle(zeros);

@@ -95,6 +95,7 @@ class Motion::EventDriven final : public Motion::Course {
                                                   std::vector<Index>& at_zero);
   double sign_ahead(std::size_t k, std::vector<double> by_rounding);
   bool has_left_its_branch(std::size_t k, double tau);
+  double distance_of_zero(const Zero& zero, double tau);
   double terms_of_argument(std::size_t k, double tau) const;
   double rate_of_argument(std::size_t k, double tau) const;
   bool is_at_zero_of_arc(std::size_t k) const;
@@ -140,6 +141,7 @@ class Motion::EventDriven final : public Motion::Course {
   Arc next;  ///< the one ahead of `state`; its t is not a number until it is begun
   Expansion expansion_;
   std::string obstacle_;          // why a step could not be taken, if an expression said so
+  std::vector<Index> across_;     // the switches whose arguments were on their other side, unforeseen
   std::string undefined_beyond_;  // of branches tried at an event, what one of them said
   double start_ = 0;              // the time at the start
   double since_start_ = 0;        // the time is start_ + since_start_ + low_
@@ -150,6 +152,7 @@ class Motion::EventDriven final : public Motion::Course {
   struct Argument {
     double branch_behind = 0;                   ///< before the event
     bool crosses = true;                        ///< it comes to 0 in the event, and does not go back
+    bool jumps = false;                         ///< past 0, in the event
     double terms_behind = 0;                    ///< what it was the sum of as the arc behind ended
     double rate_behind = 0;                     ///< and its rate
     double width_of_zero = 0;                   ///< on the branches tried last: so far it counts as 0
@@ -172,6 +175,7 @@ class Motion::EventDriven final : public Motion::Course {
   State there_;                   // the end of the step
   Vector q2_, expected_q2_;       // there, by the equations and by the series
   double reach_;                  // of arguments in a step
+  bool may_jump_ = false;         // an argument of a branch
   bool is_blind_ = false;         // the step ahead is not the one that its series tell
   bool is_cut_ = false;           // on the next arc: a derivative has no bound as it begins
   bool ends_early_ = false;       // and its series end before that

@@ -79,6 +79,7 @@ bool Motion::EventDriven::is_met(double at, double tau, bool may_leave_zero) {
 
 bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_leave_zero) {
   double pull = 0;
+  across_.clear();
   try {
     expansion_.set(there_);
     const std::optional<HeldRows::Answer> answer =
@@ -92,12 +93,8 @@ bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_lea
   }
   if (is_passed(tau)) return false;
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    if (has_left_its_branch(k, tau)) {
-      obstacle_ = expansion_.has_angle(k)
-                      ? "an atan2 jumps there, and with it the argument of a branch"
-                      : "an argument of a branch is on its other side, and its series does not tell when";
-      return false;
-    }
+    if (has_left_its_branch(k, at)) across_.push_back(static_cast<Index>(k));
+  if (!across_.empty()) return false;
   // Of a series that ends before a derivative without a bound the last terms may be of any size.
   const double moved = ends_early_ ? (sizes_[1] + sizes_[2] * tau) * tau : largest_term(sizes_, tau);
   const double size = expansion_.norm(q2_);
@@ -256,7 +253,7 @@ void Motion::EventDriven::fill_next() {
   is_blind_ = is_cut_ || (!expansion_.arguments().empty() &&
                           (step_ahead_ < told || std::isinf(told) || is_rising(sizes_, step_ahead_)));
   watch();
-  is_blind_ = is_blind_ || !without_value_.empty();
+  is_blind_ = is_blind_ || !without_value_.empty() || may_jump_;
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
       step_ahead_ = std::min(step_ahead_, std::max(trusted_length(one.c, tolerance), rounding_of_time(0)));

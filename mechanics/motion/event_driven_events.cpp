@@ -43,7 +43,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   for (const Index a : persist_)
     if (!is_two_sided(a)) held.push_back(a);
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
-    arguments_[k].crosses = false;
+    arguments_[k].crosses = arguments_[k].jumps = false;
     arguments_[k].terms_behind = terms_of_argument(k, done.length);
     arguments_[k].rate_behind = rate_of_argument(k, done.length);
   }
@@ -51,6 +51,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
     if (zero.of == Zero::Of::branch) {
       switches.push_back(zero.which);
       arguments_[static_cast<std::size_t>(zero.which)].crosses = !zero.is_touch;
+      arguments_[static_cast<std::size_t>(zero.which)].jumps = zero.is_jump;
     }
     if (zero.of != Zero::Of::constraint) continue;
     // Where its gradient vanishes a contact is touched, and d²f/dt² tells whether it opens.

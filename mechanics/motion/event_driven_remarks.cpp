@@ -38,7 +38,7 @@ double polynomial_at(std::span<const double> c, double at) {
 double width_of_zero(std::span<const double> c, double tau, double ahead, double rounding, double least) {
   const double there = polynomial_at(c, tau);
   const auto width = [&](double sense, double most) {
-    double w = std::min(least, most);
+    double w = std::min(std::max(least, std::numeric_limits<double>::min()), most);
     while (w < most && std::abs(polynomial_at(c, tau + sense * w) - there) <= rounding)
       w = std::min(2 * w, most);
     return w;

@@ -134,13 +134,26 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
   return found;
 }
 
-/// Whether an argument is on the other side, of which the series of its arc know nothing: an atan2 in it has
-/// jumped, or they have few orders.
+/// Whether an argument is on the other side, of which the series of its arc know nothing: it has jumped, or
+/// they have few orders.
 bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   const double beyond = -expansion_.switch_argument(k)[0] * expansion_.branch(k);
-  if (!(beyond > 0) || !(is_cut_ || expansion_.has_angle(k))) return false;
+  if (!(beyond > 0) || !(is_cut_ || expansion_.may_jump(k))) return false;
   const double digits = half_the_digits * terms_of_argument(k, tau);
   return (digits > 0 || is_cut_) && beyond > digits + expansion_.rounding_of_argument(k);
+}
+
+/// How far an argument is before its zero at the end of a step, or past it, < 0, by the text: 0 where
+/// rounding does not tell. The polynomial tells a zero of higher order no better than to where it is within
+/// rounding.
+double Motion::EventDriven::distance_of_zero(const Zero& zero, double tau) {
+  const double moment = rounding_of_time(0);
+  if (zero.of != Zero::Of::branch || zero.is_touch || zero.is_jump) return 0;
+  if (!(tau > instants_until_rest * moment)) return 0;
+  const auto k = static_cast<std::size_t>(zero.which);
+  const double distance = expansion_.switch_argument(k)[0] * expansion_.branch(k),
+               left = expansion_.rounding_of_argument(k) + rate_of_argument(k, tau) * moment;
+  return std::abs(distance) > left ? distance : 0;
 }
 
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
@@ -150,6 +163,7 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
   const std::span<const double> c = expansion_.switch_argument(k);
   if (std::isnan(c[0])) return expansion_.branch(k);  // not asked on these branches
   Argument& argument = arguments_[k];
+  if (argument.jumps && c[0] != 0) return std::copysign(1.0, c[0]);
   // A velocity that comes to 0 has the rounding of what it was.
   if (record.steps > 0 && done.length > 0 && by_rounding.size() > 1)
     by_rounding[1] =

@@ -18,15 +18,33 @@ bool compares(const expression::Tape& tape, expression::NodeId chooses) {
   return operation == expression::Operation::max || operation == expression::Operation::min;
 }
 
-/// By node, whether an atan2 is in it.
-std::vector<bool> nodes_with_angles(const expression::Tape& tape) {
-  std::vector<bool> has_angle(tape.size());
-  for (expression::NodeId node = 0; node < tape.size(); ++node) {
-    const int count = expression::arity(tape.operation(node));
-    has_angle[node] = tape.operation(node) == expression::Operation::atan2 ||
-                      (count > 0 && has_angle[tape.a(node)]) || (count > 1 && has_angle[tape.b(node)]);
+/// Whether it may jump, or have a kink, of which its series before do not tell: at a pole, where an atan2
+/// does, or a root of what comes to 0.
+bool may_jump(const expression::Tape& tape, NodeId node) {
+  using enum expression::Operation;
+  switch (tape.operation(node)) {
+    case divide:
+    case power:
+      return !tape.is_constant(tape.operation(node) == divide ? tape.b(node) : tape.a(node));
+    case tan:
+    case asin:
+    case acos:
+    case atan2:
+    case sqrt:
+      return true;
+    default:
+      return false;
   }
-  return has_angle;
+}
+
+/// By node, whether it or one that it is of may jump.
+std::vector<bool> nodes_that_may_jump(const expression::Tape& tape) {
+  std::vector<bool> may(tape.size());
+  for (NodeId node = 0; node < tape.size(); ++node) {
+    const int count = expression::arity(tape.operation(node));
+    may[node] = may_jump(tape, node) || (count > 0 && may[tape.a(node)]) || (count > 1 && may[tape.b(node)]);
+  }
+  return may;
 }
 
 [[noreturn]] void refuse_order(int order) {
@@ -48,11 +66,11 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
       magnitude_(series_) {
   convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
   const expression::Tape& tape = equations_.tape;
-  const std::vector<bool> has_angle = nodes_with_angles(tape);
+  const std::vector<bool> may_jump = nodes_that_may_jump(tape);
   std::vector<bool> is_in_argument(tape.size());
   for (const Switch& one : steps_.switches) {
     const NodeId a = tape.a(one.node), b = compares(tape, one.node) ? tape.b(one.node) : a;
-    has_angle_.push_back(has_angle[a] || has_angle[b]);
+    may_jump_.push_back(may_jump[a] || may_jump[b]);
     is_in_argument[a] = is_in_argument[b] = true;
   }
   for (NodeId node = static_cast<NodeId>(tape.size()); node-- > 0;) {

@@ -64,9 +64,10 @@ double majorant(std::span<const double> c, double h, Part part) {
   return h * ((sum[0] + sum[1] * h) + square * (sum[2] + sum[3] * h));
 }
 
-std::span<const double> without_zeros_at_end(std::span<const double> c) {
+/// Without zeros at the end, and without what has left the range of doubles.
+std::span<const double> without_end(std::span<const double> c) {
   std::size_t count = c.size();
-  while (count > 1 && c[count - 1] == 0) --count;
+  while (count > 1 && (c[count - 1] == 0 || !std::isfinite(c[count - 1]))) --count;
   return c.first(count);
 }
 
@@ -100,7 +101,7 @@ double reach_of_argument(int order, double tolerance) {
 }
 
 double seen_length(std::span<const double> argument, TaylorStep::Kind of, double step, double reach) {
-  const std::span<const double> u = without_zeros_at_end(argument);
+  const std::span<const double> u = without_end(argument);
   const auto size = [](double c) { return std::abs(c); };
   const auto up = [](double c) { return std::max(c, 0.0); };
   const auto down = [](double c) { return std::max(-c, 0.0); };

@@ -14,6 +14,7 @@ struct Zero {
   double at;    ///< τ
   bool is_touch = false;
   bool is_soft = false;  ///< it comes to 0 with its rate, and does not go up again
+  bool is_jump = false;  ///< past it, and not through it
 };
 
 /// What is watched on an arc.

@@ -1,0 +1,127 @@
+// Arguments of branches that come to their other side otherwise than through a simple zero.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "mechanics/number_text.hpp"
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace tests;
+using mechanics::MotionStatus;
+
+namespace {
+
+constexpr double until = 4;
+
+/// A unit mass from x = 0.5 with the velocity -1.
+Followed pushed(const std::string& force) {
+  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0.5}, {-1}), until);
+}
+
+/// The same under a force of 1 at the times of (from, to), and those a period later.
+mechanics::State pushed_between(double from, double to, double period) {
+  mechanics::State end = state({0.5 - until}, {-1});
+  for (double shift = 0; from + shift < until; shift += period) {
+    const double on = from + shift, off = std::min(until, to + shift);
+    end.v[0] += off - on;
+    end.q[0] += (off - on) * (until - (on + off) / 2);
+  }
+  return end;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a distance from a point has its threshold on the far side too, where the path is straight through it") {
+  const std::pair<const char*, const char*> same[] = {
+      {"-max(0, hypot(x, 0) - 1)*x", "-max(0, abs(x) - 1)*x"},
+      {"-max(0, sqrt(x^2) - 1)*x", "-max(0, abs(x) - 1)*x"},
+      {"-max(0, sqrt(x^2 - 0.4*x + 0.04) - 1)*x", "-max(0, abs(x - 0.2) - 1)*x"},
+      {"if(hypot(x, 0) > 1, -x, 0)", "if(abs(x) > 1, -x, 0)"},
+      {"2 - x'*if(hypot(x', 0) > 0.5, 2, 0)", "2 - x'*if(abs(x') > 0.5, 2, 0)"}};
+  for (const auto& [of_distance, of_size] : same) {
+    CAPTURE(of_distance);
+    const Followed told = pushed(of_distance), right = pushed(of_size);
+    CHECK(told.motion.status() == MotionStatus::done);
+    CHECK(told.end().q[0] == doctest::Approx(right.end().q[0]).epsilon(1e-10));
+    CHECK(told.end().v[0] == doctest::Approx(right.end().v[0]).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("a slack rope holds a mass let go straight above its anchor") {
+  const std::string pull = "-20*max(0, hypot(x, y) - 1)/hypot(x, y)";
+  const Followed
+      told = followed(
+          {{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {{"x", pull + "*x"}, {"y", pull + "*y - 9.81"}}, {}},
+          state({0, 0.5}, {0, 0}), until),
+      right = followed({{"y"}, "y'^2/2", "", {}, {}, {{"y", "-20*max(0, abs(y) - 1)*sign(y) - 9.81"}}, {}},
+                       state({0.5}, {0}), until);
+  CHECK(told.motion.status() == MotionStatus::done);
+  CHECK(told.end().q[1] == doctest::Approx(right.end().q[0]).epsilon(1e-10));
+  CHECK(told.end().v[1] == doctest::Approx(right.end().v[0]).epsilon(1e-10));
+}
+
+TEST_CASE("a branch takes its side beyond a pole, and beyond the kink of a wave") {
+  using std::numbers::pi;
+  struct Wave {
+    const char* force;
+    double from, to, period;
+  };
+  const Wave waves[] = {{"if(1/(t - 1) > 2, 1, 0)", 1, 1.5, 10},
+                        {"if(tan(3*t) > 1, 1, 0)", pi / 12, pi / 6, pi / 3},
+                        {"(1 + sign(tan(3*t)))/2", 0, pi / 6, pi / 3},
+                        {"if(asin(sin(3*t)) > 0.5, 1, 0)", 0.5 / 3, (pi - 0.5) / 3, 2 * pi / 3},
+                        {"if(acos(cos(3*t)) > 1, 1, 0)", 1. / 3, (2 * pi - 1) / 3, 2 * pi / 3}};
+  for (const Wave& wave : waves) {
+    CAPTURE(wave.force);
+    const Followed told = pushed(wave.force);
+    const mechanics::State right = pushed_between(wave.from, wave.to, wave.period);
+    CHECK(told.motion.status() == MotionStatus::done);
+    CHECK(told.end().q[0] == doctest::Approx(right.q[0]).epsilon(1e-10));
+    CHECK(told.end().v[0] == doctest::Approx(right.v[0]).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("an argument with a zero of higher order changes its sign where it has it") {
+  for (const char* power : {"3", "5", "7", "9"}) {
+    CAPTURE(power);
+    const Followed told = pushed("sign((t - 1)^" + std::string(power) + ")");
+    CHECK(told.end().q[0] == doctest::Approx(-2.5).epsilon(1e-9));
+    CHECK(told.end().v[0] == doctest::Approx(1).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("friction by a root of v'v turns in milliseconds as it does in seconds") {
+  for (const double unit : {1.0, 1e-3, 1e-6}) {
+    CAPTURE(unit);
+    const std::string u = mechanics::number_text(unit), v = "hypot(x'*" + u + ", 0)";
+    const Followed told =
+        followed({{"x"},
+                  "x'^2/2",
+                  "",
+                  {},
+                  {},
+                  {{"x", "(2 - tanh(" + v + "/0.01)*x'*" + u + "/max(" + v + ", 1e-3))/" + u + "^2"}},
+                  {}},
+                 state({0.5}, {-1 / unit}), 2 * unit);
+    CHECK(told.motion.status() == MotionStatus::done);
+    CHECK(told.end().q[0] == doctest::Approx(1.7282954).epsilon(1e-7));  // by DOP853, in seconds
+    CHECK(told.end().v[0] * unit == doctest::Approx(1.6703290).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("bodies a nanometre apart that move for a quarter of an hour come to an end") {
+  const SystemText text{
+      {"x", "y"},
+      "(x'^2 + y'^2)/2",
+      "",
+      {},
+      {},
+      {{"x", "(sin(0.015*t) - 2 + 10*((y - x)*1e9 - 0.5))*1e-15"}, {"y", "-10*((y - x)*1e9 - 0.5)*1e-15"}},
+      {{"wall", "x >= (0.1*sin(0.004*t) - 0.1)*1e-9"}, {"gap", "y - x >= 2e-10"}}};
+  const Followed told = followed(text, state({1e-10, 4e-10}, {0, 2e-12}), 1000, restitution(text, 0.3));
+  CHECK(told.motion.status() == MotionStatus::done);
+}
