@@ -95,6 +95,7 @@ class Motion::EventDriven final : public Motion::Course {
                                                   std::vector<Index>& at_zero);
   double sign_ahead(std::size_t k, std::vector<double> by_rounding);
   bool has_left_its_branch(std::size_t k, double tau);
+  void note_across(double tau);
   double distance_of_zero(const Zero& zero, double tau);
   double terms_of_argument(std::size_t k, double tau) const;
   double rate_of_argument(std::size_t k, double tau) const;
@@ -104,7 +105,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Zero> left_behind();
   std::optional<HeldRows::Answer> acceleration_off_zero(double tau);
   std::optional<HeldRows::Answer> acceleration_off_zero(const State& there,
-                                                        const std::vector<std::size_t>& left);
+                                                        const std::vector<std::size_t>& left, double tau = 0);
   void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
   void take_sides_ahead(Contacts& found, const std::vector<Index>& switches);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows

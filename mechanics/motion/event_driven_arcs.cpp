@@ -92,8 +92,7 @@ bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_lea
     return false;
   }
   if (is_passed(tau)) return false;
-  for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    if (has_left_its_branch(k, at)) across_.push_back(static_cast<Index>(k));
+  note_across(at);
   if (!across_.empty()) return false;
   // Of a series that ends before a derivative without a bound the last terms may be of any size.
   const double moved = ends_early_ ? (sizes_[1] + sizes_[2] * tau) * tau : largest_term(sizes_, tau);

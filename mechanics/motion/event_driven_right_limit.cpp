@@ -84,14 +84,14 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(doubl
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
     if (has_left_zero(k, tau)) left.push_back(k);
   if (left.empty()) return expansion_.acceleration(persist_);
-  const std::optional<HeldRows::Answer> answer = acceleration_off_zero(there_, left);
+  const std::optional<HeldRows::Answer> answer = acceleration_off_zero(there_, left, tau);
   expansion_.set(there_);
   return answer;
 }
 
 /// The same at a state, on the branches that these arguments, which are 0 here, take there.
 std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(
-    const State& there, const std::vector<std::size_t>& left) {
+    const State& there, const std::vector<std::size_t>& left, double tau) {
   std::optional<HeldRows::Answer> answer;
   try {
     expansion_.set(there);
@@ -100,6 +100,7 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(
         expansion_.branch(k) = std::copysign(1.0, argument);
     expansion_.set(there);
     answer = expansion_.acceleration(persist_);
+    note_across(tau);
   } catch (const convex::InvalidInput& error) {
     obstacle_ = error.what();
   }
@@ -141,6 +142,13 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   if (!(beyond > 0) || !(is_cut_ || expansion_.may_jump(k))) return false;
   const double digits = half_the_digits * terms_of_argument(k, tau);
   return (digits > 0 || is_cut_) && beyond > digits + expansion_.rounding_of_argument(k);
+}
+
+/// The switches of which that holds at a time of the next arc.
+void Motion::EventDriven::note_across(double tau) {
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    if (const auto which = static_cast<Index>(k); has_left_its_branch(k, tau) && !is_among(across_, which))
+      across_.push_back(which);
 }
 
 /// How far an argument is before its zero at the end of a step, or past it, < 0, by the text: 0 where

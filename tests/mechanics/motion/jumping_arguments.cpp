@@ -125,3 +125,13 @@ TEST_CASE("bodies a nanometre apart that move for a quarter of an hour come to a
   const Followed told = followed(text, state({1e-10, 4e-10}, {0, 2e-12}), 1000, restitution(text, 0.3));
   CHECK(told.motion.status() == MotionStatus::done);
 }
+
+TEST_CASE("the size of what is no less than 0 is itself where it touches 0") {
+  const auto band = [](const std::string& size) {
+    return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "-1 - if(" + size + " < 0.1, x, 0)"}}, {}},
+                    state({1}, {1}), until);
+  };
+  const Followed told = band("abs(abs(x')^1.5)"), right = band("abs(x')^1.5");
+  CHECK(told.end().q[0] == doctest::Approx(right.end().q[0]).epsilon(1e-10));
+  CHECK(told.end().v[0] == doctest::Approx(right.end().v[0]).epsilon(1e-10));
+}
