@@ -50,7 +50,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool is_met(double at, double tau, bool may_leave_zero);
   bool is_met_on_branches(double at, double tau, bool may_leave_zero);
   double pull_of_weak(const Vector& lambda);
-  bool is_passed(double tau);
+  bool is_passed(double at);
   void move_time(double by);
   /// What the rounding of a time is of: motions without t in them are the same whenever they start.
   double clock() const {
@@ -101,7 +101,7 @@ class Motion::EventDriven final : public Motion::Course {
   double rate_of_argument(std::size_t k, double tau) const;
   bool is_at_zero_of_arc(std::size_t k) const;
   double left_of_argument(std::size_t k, double tau);
-  bool has_left_zero(std::size_t k, double tau);
+  bool has_left_zero(std::size_t k, double tau, double times);
   std::vector<Zero> left_behind();
   std::optional<HeldRows::Answer> acceleration_off_zero(double tau);
   std::optional<HeldRows::Answer> acceleration_off_zero(const State& there,

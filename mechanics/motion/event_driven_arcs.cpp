@@ -24,9 +24,6 @@ constexpr long most_cut_in_a_row = 1000;
 /// A motion is known to so many roundings of its length.
 constexpr double roundings_of_motion = 16;
 
-/// A contact is through when f is below 0 by more than so many roundings of its summands.
-constexpr double roundings_of_passing = 1e3;
-
 /// What the constants of f and df/dt leave of a contact that is held.
 constexpr double roundings_of_constants = 16;
 
@@ -91,7 +88,7 @@ bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_lea
     obstacle_ = error.what();
     return false;
   }
-  if (is_passed(tau)) return false;
+  if (is_passed(at)) return false;
   note_across(at);
   if (!across_.empty()) return false;
   // Of a series that ends before a derivative without a bound the last terms may be of any size.
@@ -131,22 +128,6 @@ double Motion::EventDriven::pull_of_weak(const Vector& lambda) {
       pull += beyond * expansion_.inertia().dual_norm(expansion_.row(persist_[k]));
   }
   return pull;
-}
-
-/// A contact that is free at the beginning, and through there, was met on the way.
-bool Motion::EventDriven::is_passed(double tau) {
-  for (Index a = 0; a < expansion_.constraints(); ++a) {
-    if (is_two_sided(a) || is_held_[static_cast<std::size_t>(a)]) continue;
-    const double beyond = std::min(0.0, next.f(a, 0)) - expansion_.f(a);
-    if (!(beyond >
-          options.tolerance * std::max(expansion_.position_scale(a), expansion_.rate_scale(a) * tau)))
-      continue;
-    // f may have constants whose rounding is more than what it is now.
-    if (beyond <= roundings_of_passing * epsilon * system.constraint_rates(there_).f_scale[a]) continue;
-    obstacle_ = constraint_name(a) + " is passed, and its series does not tell when";
-    return true;
-  }
-  return false;
 }
 
 /// Back to f = 0 and df/dt = 0 of the contacts held, by the least change in the kinetic metric.
@@ -252,7 +233,9 @@ void Motion::EventDriven::fill_next() {
   is_blind_ = is_cut_ || (!expansion_.arguments().empty() &&
                           (step_ahead_ < told || std::isinf(told) || is_rising(sizes_, step_ahead_)));
   watch();
-  is_blind_ = is_blind_ || !without_value_.empty() || may_jump_;
+  // Of a series of zeros nothing is known but that it begins so, as that of t^40.
+  const bool may_hide = std::isinf(told) && (m > 0 || expansion_.switches() > 0);
+  is_blind_ = is_blind_ || !without_value_.empty() || may_jump_ || may_hide;
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
       step_ahead_ = std::min(step_ahead_, std::max(trusted_length(one.c, tolerance), rounding_of_time(0)));

@@ -24,6 +24,10 @@ constexpr double instants_until_rest = 1e3;
 /// A rate that falls to less than this part of itself at an event is that of a rest.
 constexpr double part_of_rate = 1e-3;
 
+/// A step ends before an argument that stayed 0 is so many times farther than rounding: it has left by then,
+/// and what leaves slowly comes so far in a step.
+constexpr double far_from_zero = 2;
+
 /// Of so many arguments at 0 all branches are tried.
 constexpr std::size_t most_tried = 8;
 
@@ -71,10 +75,12 @@ double Motion::EventDriven::left_of_argument(std::size_t k, double tau) {
   return argument.left_of_zero + (std::isfinite(left) ? left : 0);
 }
 
-/// Whether an argument that stayed 0 does so no longer, at a time of the next arc.
-bool Motion::EventDriven::has_left_zero(std::size_t k, double tau) {
-  return expansion_.branch(k) == 0 && std::abs(expansion_.switch_argument(k)[0]) >
-                                          left_of_argument(k, tau) + expansion_.rounding_of_argument(k);
+/// Whether an argument that stayed 0 is so many times farther than what rounding may have made of it, at a
+/// time of the next arc.
+bool Motion::EventDriven::has_left_zero(std::size_t k, double tau, double times) {
+  return expansion_.branch(k) == 0 &&
+         std::abs(expansion_.switch_argument(k)[0]) >
+             times * (left_of_argument(k, tau) + expansion_.rounding_of_argument(k));
 }
 
 /// q'' and the multipliers at a time of the next arc, by the text: on the branches that the arguments which
@@ -82,7 +88,7 @@ bool Motion::EventDriven::has_left_zero(std::size_t k, double tau) {
 std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(double tau) {
   std::vector<std::size_t> left;
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    if (has_left_zero(k, tau)) left.push_back(k);
+    if (has_left_zero(k, tau, far_from_zero)) left.push_back(k);
   if (left.empty()) return expansion_.acceleration(persist_);
   const std::optional<HeldRows::Answer> answer = acceleration_off_zero(there_, left, tau);
   expansion_.set(there_);
@@ -116,7 +122,7 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     if (expansion_.branch(k) != 0) continue;
     const auto which = static_cast<Index>(k);
-    const bool has_left = has_left_zero(k, done.length);
+    const bool has_left = has_left_zero(k, done.length, 1);
     arguments_[k].left_of_zero = left_of_argument(k, done.length);
     if (has_left)
       found.push_back({Zero::Of::branch, which, done.length});
@@ -133,35 +139,6 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
       found.push_back({Zero::Of::multiplier, a, done.length});
   }
   return found;
-}
-
-/// Whether an argument is on the other side, of which the series of its arc know nothing: it has jumped, or
-/// they have few orders.
-bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
-  const double beyond = -expansion_.switch_argument(k)[0] * expansion_.branch(k);
-  if (!(beyond > 0) || !(is_cut_ || expansion_.may_jump(k))) return false;
-  const double digits = half_the_digits * terms_of_argument(k, tau);
-  return (digits > 0 || is_cut_) && beyond > digits + expansion_.rounding_of_argument(k);
-}
-
-/// The switches of which that holds at a time of the next arc.
-void Motion::EventDriven::note_across(double tau) {
-  for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    if (const auto which = static_cast<Index>(k); has_left_its_branch(k, tau) && !is_among(across_, which))
-      across_.push_back(which);
-}
-
-/// How far an argument is before its zero at the end of a step, or past it, < 0, by the text: 0 where
-/// rounding does not tell. The polynomial tells a zero of higher order no better than to where it is within
-/// rounding.
-double Motion::EventDriven::distance_of_zero(const Zero& zero, double tau) {
-  const double moment = rounding_of_time(0);
-  if (zero.of != Zero::Of::branch || zero.is_touch || zero.is_jump) return 0;
-  if (!(tau > instants_until_rest * moment)) return 0;
-  const auto k = static_cast<std::size_t>(zero.which);
-  const double distance = expansion_.switch_argument(k)[0] * expansion_.branch(k),
-               left = expansion_.rounding_of_argument(k) + rate_of_argument(k, tau) * moment;
-  return std::abs(distance) > left ? distance : 0;
 }
 
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if

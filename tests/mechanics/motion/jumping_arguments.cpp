@@ -135,3 +135,39 @@ TEST_CASE("the size of what is no less than 0 is itself where it touches 0") {
   CHECK(told.end().q[0] == doctest::Approx(right.end().q[0]).epsilon(1e-10));
   CHECK(told.end().v[0] == doctest::Approx(right.end().v[0]).epsilon(1e-10));
 }
+
+TEST_CASE("what has more zeros at once than a series has orders is met all the same") {
+  const Followed told = pushed("if((t/2)^40 > 1, 1, 0)");
+  CHECK(told.end().q[0] == doctest::Approx(-1.5).epsilon(1e-12));
+  CHECK(told.end().v[0] == doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("a ball strikes a bump of high order, and the humps of a fractional power") {
+  const std::pair<const char*, double> bumps[] = {{"y >= 0.3*sin(3.14159*x/3)^40", 0.2},
+                                                  {"y >= 0.3*abs(sin(3*x)*(x - 1))^2.5", 0.1}};
+  for (const auto& [bump, height] : bumps) {
+    CAPTURE(bump);
+    const SystemText text{{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"bump", bump}}};
+    const Followed told = followed(text, state({0, height}, {1, 0}), 3, restitution(text, 1));
+    CHECK(told.motion.status() == MotionStatus::done);
+    CHECK(told.motion.record().impacts > 0);
+    CHECK(told.motion.record().largest_penetration < 1e-12);
+    CHECK(told.motion.energy() == doctest::Approx(0.5).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a pulse pushes a body at rest from the edge of its stop, however slowly it begins") {
+  struct Stop {
+    const char* stiffness;
+    double x, v;  // at t = 2, by DOP853 (Hairer, Norsett and Wanner 1993) with steps of 2e-4
+  };
+  for (const Stop& stop : {Stop{"10", 0.53116586, -0.05467704}, Stop{"10000", 0.4486405, -0.05374742}}) {
+    CAPTURE(stop.stiffness);
+    const std::string force =
+        "-max(x - 0.5, 0)*" + std::string(stop.stiffness) + " + 5*exp(-((t - 1)/0.02)^2)";
+    const Followed told = followed({{"x"}, "x'^2", "", {}, {}, {{"x", force}}, {}}, state({0.5}, {0}), 2);
+    CHECK(told.motion.status() == MotionStatus::done);
+    CHECK(told.end().q[0] == doctest::Approx(stop.x).epsilon(1e-7));
+    CHECK(told.end().v[0] == doctest::Approx(stop.v).epsilon(1e-6));
+  }
+}

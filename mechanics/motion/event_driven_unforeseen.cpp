@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/motion/event_driven.hpp"
+#include "mechanics/motion/terms.hpp"
+
+/// What the series of an arc do not tell of the arguments of branches and of free contacts, found by the text
+/// at times of the step: they have jumped, as at a pole, or have a kink, or the series have too few orders.
+namespace mechanics::inline motions {
+namespace {
+
+/// A contact is through when f is below 0 by more than so many roundings of its summands.
+constexpr double roundings_of_passing = 1e3;
+
+/// A number above 0 that a series tells to this part comes to 0 where the series does.
+constexpr double part_told = 0.1;
+
+/// A zero is told by the text where it is farther off than so many roundings of the time.
+constexpr double roundings_of_zero = 1e3;
+
+/// Whether a series tells 'told' for what is 'there', up to a rounding of both.
+bool tells(double told, double there, double rounding) {
+  return std::abs(there - told) <= part_told * std::min(std::abs(there), std::abs(told)) + rounding;
+}
+
+}  // namespace
+
+/// Whether an argument is on its other side, or not where its series has it.
+bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
+  const double there = expansion_.switch_argument(k)[0] * expansion_.branch(k);
+  if (expansion_.branch(k) == 0 || std::isnan(there)) return false;
+  const double digits = half_the_digits * terms_of_argument(k, tau);
+  if (there < 0) return (digits > 0 || is_cut_) && -there > digits + expansion_.rounding_of_argument(k);
+  if (!(digits > 0)) return false;
+  const Watched& one = watched_[watched_.size() - expansion_.switches() + k];
+  const double told = std::pow(tau, one.zeros) * value_at(one.c, tau);
+  return !tells(told, there, digits) && !tells(told, there, digits + expansion_.rounding_of_argument(k));
+}
+
+/// The switches of which that holds at a time of the next arc.
+void Motion::EventDriven::note_across(double tau) {
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    if (const auto which = static_cast<Index>(k); has_left_its_branch(k, tau) && !is_among(across_, which))
+      across_.push_back(which);
+}
+
+/// Whether a contact that is free at the beginning is through at a time of the arc, or its series does not
+/// tell that it is not.
+bool Motion::EventDriven::is_passed(double at) {
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    if (is_two_sided(a) || is_held_[static_cast<std::size_t>(a)]) continue;
+    const double there = expansion_.f(a);
+    const std::span<const double> c = coefficients(next.f, a);
+    const double least = options.tolerance *
+                         std::max(expansion_.position_scale(a), expansion_.rate_scale(a) * at),
+                 beyond = std::min(0.0, c[0]) - there;
+    const bool is_told = tells(value_at(c, at), there, least + half_the_digits * sum_of_terms(c, at));
+    if (is_told && !(beyond > least)) continue;
+    // f may have constants whose rounding is more than what it is now.
+    const double rounding = roundings_of_passing * epsilon * system.constraint_rates(there_).f_scale[a];
+    if (beyond > std::max(least, rounding) || (!is_told && std::abs(there - value_at(c, at)) > rounding)) {
+      obstacle_ = constraint_name(a) + (beyond > 0 ? " is passed, and its series does not tell when"
+                                                   : " jumps, or its series does not tell where it is");
+      return true;
+    }
+  }
+  return false;
+}
+
+/// How far an argument is before its zero at the end of a step, or past it, < 0, by the text: 0 where
+/// rounding does not tell. The polynomial tells a zero of higher order no better than to where it is within
+/// rounding.
+double Motion::EventDriven::distance_of_zero(const Zero& zero, double tau) {
+  const double moment = rounding_of_time(0);
+  if (zero.of != Zero::Of::branch || zero.is_touch || zero.is_jump) return 0;
+  if (!(tau > roundings_of_zero * moment)) return 0;
+  const auto k = static_cast<std::size_t>(zero.which);
+  const double distance = expansion_.switch_argument(k)[0] * expansion_.branch(k),
+               left = expansion_.rounding_of_argument(k) + rate_of_argument(k, tau) * moment;
+  return std::abs(distance) > left ? distance : 0;
+}
+
+}  // namespace mechanics::inline motions
