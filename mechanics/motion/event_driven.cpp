@@ -37,7 +37,6 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
   arguments_.resize(expansion_.switches());
-  for (std::size_t k = 0; k < expansion_.switches(); ++k) may_jump_ = may_jump_ || expansion_.may_jump(k);
   is_weak_.assign(m, false);
   least_multiplier_.assign(m, 0.0);
   is_blurred_.assign(m, false);

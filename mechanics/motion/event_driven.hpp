@@ -176,7 +176,6 @@ class Motion::EventDriven final : public Motion::Course {
   State there_;                   // the end of the step
   Vector q2_, expected_q2_;       // there, by the equations and by the series
   double reach_;                  // of arguments in a step
-  bool may_jump_ = false;         // an argument of a branch
   bool is_blind_ = false;         // the step ahead is not the one that its series tell
   bool is_cut_ = false;           // on the next arc: a derivative has no bound as it begins
   bool ends_early_ = false;       // and its series end before that

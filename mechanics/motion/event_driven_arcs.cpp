@@ -235,7 +235,7 @@ void Motion::EventDriven::fill_next() {
   watch();
   // Of a series of zeros nothing is known but that it begins so, as that of t^40.
   const bool may_hide = std::isinf(told) && (m > 0 || expansion_.switches() > 0);
-  is_blind_ = is_blind_ || !without_value_.empty() || may_jump_ || may_hide;
+  is_blind_ = is_blind_ || !without_value_.empty() || expansion_.may_jump() || may_hide;
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
       step_ahead_ = std::min(step_ahead_, std::max(trusted_length(one.c, tolerance), rounding_of_time(0)));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/invariant.hpp"
+#include "mechanics/motion/jumping_nodes.hpp"
 
 namespace mechanics::inline motions {
 
@@ -16,35 +17,6 @@ namespace {
 bool compares(const expression::Tape& tape, expression::NodeId chooses) {
   const expression::Operation operation = tape.operation(chooses);
   return operation == expression::Operation::max || operation == expression::Operation::min;
-}
-
-/// Whether it may jump, or have a kink, of which its series before do not tell: at a pole, where an atan2
-/// does, or a root of what comes to 0.
-bool may_jump(const expression::Tape& tape, NodeId node) {
-  using enum expression::Operation;
-  switch (tape.operation(node)) {
-    case divide:
-    case power:
-      return !tape.is_constant(tape.operation(node) == divide ? tape.b(node) : tape.a(node));
-    case tan:
-    case asin:
-    case acos:
-    case atan2:
-    case sqrt:
-      return true;
-    default:
-      return false;
-  }
-}
-
-/// By node, whether it or one that it is of may jump.
-std::vector<bool> nodes_that_may_jump(const expression::Tape& tape) {
-  std::vector<bool> may(tape.size());
-  for (NodeId node = 0; node < tape.size(); ++node) {
-    const int count = expression::arity(tape.operation(node));
-    may[node] = may_jump(tape, node) || (count > 0 && may[tape.a(node)]) || (count > 1 && may[tape.b(node)]);
-  }
-  return may;
 }
 
 [[noreturn]] void refuse_order(int order) {
@@ -70,7 +42,7 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
   std::vector<bool> is_in_argument(tape.size());
   for (const Switch& one : steps_.switches) {
     const NodeId a = tape.a(one.node), b = compares(tape, one.node) ? tape.b(one.node) : a;
-    may_jump_.push_back(may_jump[a] || may_jump[b]);
+    may_jump_ = may_jump_ || may_jump[a] || may_jump[b];
     is_in_argument[a] = is_in_argument[b] = true;
   }
   for (NodeId node = static_cast<NodeId>(tape.size()); node-- > 0;) {

@@ -160,8 +160,8 @@ class Expansion {
   std::vector<std::vector<double>> rounding_of_switches(const std::vector<Index>& which, int orders);
   /// The same of the argument itself, at a state.
   double rounding_of_argument(std::size_t k);
-  /// Whether that argument may jump to its other side, as at a pole, or have a kink.
-  bool may_jump(std::size_t k) const { return may_jump_[k]; }
+  /// Whether one of the arguments may jump, as at a pole, or have a kink, of which its series do not tell.
+  bool may_jump() const { return may_jump_; }
   /// Whether both arguments of an atan2 are 0 but for rounding at a state, so that nothing tells the angle,
   /// and with it a branch.
   bool has_open_angle();
@@ -234,7 +234,7 @@ class Expansion {
   std::vector<double> f_;       // likewise
   TaylorMagnitude magnitude_;   // while it is open who persists
   bool magnitude_is_begun_ = false;
-  std::vector<bool> may_jump_;                                                  // by switch
+  bool may_jump_ = false;                                                       // an argument of a switch
   std::vector<std::pair<expression::Slot, expression::Slot>> choosing_angles_;  // y, x of each atan2 in them
   std::vector<double> fastest_;  // by variable: the velocities that the motion has had
   int magnitudes_found_ = 0;     // orders of the question

@@ -17,7 +17,7 @@ namespace {
 
 using convex::Matrix;
 
-constexpr int most_iterations = 60;
+constexpr int most_corrections_of_orbit = 60;
 
 /// A step of Newton's method is halved until it leads nearer, down to this part.
 constexpr double shortest_part = 1e-4;
@@ -174,7 +174,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
                                   : std::numeric_limits<double>::epsilon() * static_cast<double>(unknowns);
   Vector across = Vector::Zero(2 * n);
   std::string stopped;  // why a motion on the last line searched was
-  for (int i = 0; i < most_iterations && orbit.residual > 0; ++i) {
+  for (int i = 0; i < most_corrections_of_orbit && orbit.residual > 0; ++i) {
     if (i > 0) chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
     const auto D = for_newton(map, *chart, orbit.period, flight);
     if (!D) break;
