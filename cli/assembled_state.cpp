@@ -91,7 +91,7 @@ void assemble_declared(Problem& problem, const std::string& file) {
 std::optional<Moved> assemble_declared(Problem& problem) {
   auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr || !text->declared) return std::nullopt;
-  const auto system = mechanics::lagrangian_system(text->system);
+  const auto system = mechanics::lagrangian_system(text->system, text->state);
   const mechanics::State given = system->state(text->state);
   const mechanics::Assembly found =
       mechanics::assemble(*system, given, declared_question(*system, *text->declared));

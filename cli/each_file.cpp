@@ -27,17 +27,40 @@ std::string with_caret(const std::string& text, convex::Place place) {
   return "  " + text + "\n  " + std::string(static_cast<std::size_t>(place.column - 1), ' ') + "^\n";
 }
 
-void report(const Printing& printing, const Source& source, const std::string& text, convex::Place place) {
-  const std::string message = one_line(text);
+constexpr std::size_t most_told = 20;  // a screen of them
+
+void report(const Printing& printing, const Source& source, const convex::InvalidInput& error) {
+  std::vector<const convex::InvalidInput*> told{&error};
+  for (const convex::InvalidInput& other : error.others())
+    if (told.size() < most_told) told.push_back(&other);
+  const auto place_of = [](const convex::InvalidInput& one) { return one.place().value_or(convex::Place{}); };
   if (printing.json) {
     JsonWriter json;
+    const auto add = [&](const convex::InvalidInput& one) {
+      json.key("message").value(one_line(one.what()));
+      json.key("line").value(place_of(one).line).key("column").value(place_of(one).column);
+    };
     json.begin_object().key("file").value(source.name).key("status").value("error");
-    json.key("message").value(message).key("line").value(place.line).key("column").value(place.column);
+    add(error);
+    if (told.size() > 1) {
+      json.key("errors").begin_array();
+      for (const convex::InvalidInput* one : told) {
+        json.begin_object();
+        add(*one);
+        json.end_object();
+      }
+      json.end_array();
+    }
     fmt::print("{}\n", json.end_object().text());
   }
   std::fflush(stdout);
-  fmt::print(stderr, "moreau: {}:{}:{}: {}\n{}", source.name, place.line, place.column, message,
-             with_caret(source.text, place));
+  for (const convex::InvalidInput* one : told) {
+    const convex::Place place = place_of(*one);
+    fmt::print(stderr, "moreau: {}:{}:{}: {}\n{}", source.name, place.line, place.column,
+               one_line(one->what()), with_caret(source.text, place));
+  }
+  if (const std::size_t more = error.others().size() + 1 - told.size(); more > 0)
+    fmt::print(stderr, "moreau: {}: and {} more; correct these first\n", source.name, more);
 }
 
 }  // namespace
@@ -46,14 +69,14 @@ Exit answered(const Printing& printing, const Source& source, const std::functio
   try {
     return work();
   } catch (const convex::InvalidInput& error) {
-    report(printing, source, error.what(), error.place().value_or(convex::Place{}));
+    report(printing, source, error);
   } catch (const std::filesystem::filesystem_error& error) {
     report(printing, source,
-           "cannot write " + error.path1().string() + ", " + error.code().message() +
-               "; check its folder and permissions",
-           {});
+           convex::InvalidInput("cannot write " + error.path1().string() + ", " + error.code().message() +
+                                "; check its folder and permissions"));
   } catch (const std::bad_alloc&) {
-    report(printing, source, "needs more memory than there is; make the problem smaller", {});
+    report(printing, source,
+           convex::InvalidInput("needs more memory than there is; make the problem smaller"));
   }
   return Exit::wrong_input;
 }

@@ -7,6 +7,7 @@
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/numbers_by_constraint.hpp"
 #include "cli/problem_file/settings.hpp"
+#include "convex/mistakes.hpp"
 #include "convex/nearest_name.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
@@ -35,7 +36,8 @@ mechanics::GaussOptions solve_options(const SceneOptions& options, const SolveSe
 }
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
-  std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text.system);
+  std::shared_ptr<const mechanics::LagrangianSystem> system =
+      mechanics::lagrangian_system(text.system, text.state);
   mechanics::WrittenMechanism written = mechanics::written_mechanism(system, text.state);
   if (text.declared) written.in_contact = declared_question(*system, *text.declared).contacts;
   std::sort(written.in_contact.begin(), written.in_contact.end());
@@ -148,18 +150,25 @@ Scene make_scene(Problem problem, const std::string& file, const SceneOptions& o
   if (!std::holds_alternative<SystemProblem>(problem.content) &&
       !std::holds_alternative<ProjectionProblem>(problem.content))
     throw InvalidInput("no A, z, U and s here; give a file with [system] or [projection]");
-  const mechanics::GaussOptions solve = solve_options(options, problem.solve);
+  convex::Mistakes mistakes;
+  mechanics::GaussOptions solve;
+  mistakes.gather([&] { solve = solve_options(options, problem.solve); });
   auto* system = std::get_if<SystemProblem>(&problem.content);
   if (system == nullptr && !problem.solve.contact_tolerances.empty())
     throw InvalidInput("solve.contact_tolerance: by constraint goes with [system] only; take it out",
                        problem.solve.contact_tolerances.front().place);
-  Scene scene = system != nullptr ? system_scene(*system, problem.solve)
-                                  : projection_scene(std::get<ProjectionProblem>(std::move(problem.content)));
+  std::optional<Scene> made;
+  mistakes.gather([&] {
+    made = system != nullptr ? system_scene(*system, problem.solve)
+                             : projection_scene(std::get<ProjectionProblem>(std::move(problem.content)));
+  });
+  mistakes.tell();
+  Scene& scene = *made;
   scene.file = file;
   scene.title = problem.title;
   scene.solve = solve;
   if (!scene.exact.make) scene.exact.make = [data = scene.problem] { return convex::exact_problem(data); };
-  return scene;
+  return *std::move(made);
 }
 
 Scene read_scene(const std::string& file, const SceneOptions& options, const Overrides& overrides) {

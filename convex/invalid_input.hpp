@@ -3,6 +3,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace convex {
 
@@ -18,10 +20,16 @@ class InvalidInput : public std::runtime_error {
  public:
   explicit InvalidInput(const std::string& message, std::optional<Place> where = std::nullopt)
       : std::runtime_error(message), place_(where) {}
+  InvalidInput(InvalidInput first, std::vector<InvalidInput> others) : InvalidInput(std::move(first)) {
+    others_ = std::move(others);
+  }
   const std::optional<Place>& place() const { return place_; }
+  /// What else is wrong in the same text, in its order (convex/mistakes.hpp).
+  const std::vector<InvalidInput>& others() const { return others_; }
 
  private:
   std::optional<Place> place_;
+  std::vector<InvalidInput> others_;
 };
 
 }  // namespace convex

@@ -202,8 +202,21 @@ double LagrangianSystem::energy(const State& state) const {
 
 State LagrangianSystem::state(const StateText& text) const { return read_state(*model_, text); }
 
-std::unique_ptr<const LagrangianSystem> lagrangian_system(const LagrangianText& text) {
-  return std::make_unique<const LagrangianSystem>(read_lagrangian(text));
+std::unique_ptr<const LagrangianSystem> lagrangian_system(const LagrangianText& text,
+                                                          const StateText& state) {
+  try {
+    return std::make_unique<const LagrangianSystem>(read_lagrangian(text));
+  } catch (const convex::InvalidInput& error) {
+    convex::Mistakes mistakes;
+    mistakes.add(error);
+    expression::gather_mistakes(text, state, mistakes);
+    mistakes.tell();
+    throw;
+  }
+}
+
+void gather_mistakes(const LagrangianText& text, const StateText& state, convex::Mistakes& mistakes) {
+  expression::gather_mistakes(text, state, mistakes);
 }
 
 const EquationsOfMotion& LagrangianSystem::equations_of_motion() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "convex/mistakes.hpp"
 #include "mechanics/lagrangian_text.hpp"
 #include "mechanics/system.hpp"
 
@@ -50,7 +51,11 @@ class LagrangianSystem : public System {
 };
 
 /// Parses the text, expands its families and checks it. InvalidInput, with the place, for whatever is wrong
-/// in it.
-std::unique_ptr<const LagrangianSystem> lagrangian_system(const LagrangianText& text);
+/// in it; what is wrong in the expressions of the state, too, is told with that.
+std::unique_ptr<const LagrangianSystem> lagrangian_system(const LagrangianText& text,
+                                                          const StateText& state = {});
+
+/// Adds what is wrong in the expressions of the text and the state, each by itself: its form and its names.
+void gather_mistakes(const LagrangianText& text, const StateText& state, convex::Mistakes& mistakes);
 
 }  // namespace mechanics

@@ -145,7 +145,7 @@ Exit assemble_file(const AssembleOptions& options) {
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr)
     throw convex::InvalidInput("nothing here to assemble; `moreau assemble` takes a file with [system]");
-  const auto system = mechanics::lagrangian_system(text->system);
+  const auto system = mechanics::lagrangian_system(text->system, text->state);
   mechanics::AssemblyQuestion question;
   if (text->declared) question = declared_question(*system, *text->declared);
   for (const Index a : constraints_named(*system, options.contacts, "--contact"))

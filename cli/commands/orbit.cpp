@@ -143,7 +143,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   if (!options.period)
     throw InvalidInput("--period is missing; give the forcing's, --period \"2*pi/w\", or --period free");
   const auto start = std::chrono::steady_clock::now();
-  const auto system = mechanics::lagrangian_system(text->system);
+  const auto system = mechanics::lagrangian_system(text->system, text->state);
   mechanics::OrbitQuestion question;
   question.motion = motion_options(problem, *system, options);
   question.motion.method = mechanics::MotionMethod::event_driven;

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "convex/mistakes.hpp"
 #include "mechanics/number_text.hpp"
 
 namespace cli::inline drawings {
@@ -29,6 +30,20 @@ std::string key_of(const DrawnShape& shape) {
   return "draw." + std::string(kind_names[static_cast<std::size_t>(shape.kind)]) + "." + shape.name.text;
 }
 
+/// An error in a constraint that stands for a number, as one of the shape.
+InvalidInput of_shapes(const InvalidInput& error, const std::vector<DrawnShape>& shapes) {
+  std::string message = error.what();
+  for (const DrawnShape& shape : shapes)
+    for (std::size_t k = 0; k < shape.numbers.size(); ++k)
+      for (const std::string& prefix :
+           {std::string("constraints."), std::string("constraint "), std::string()}) {
+        const std::string name = prefix + constraint_of(shape, k) + index_of(shape.name.text);
+        if (const std::size_t at = message.find(name); at != std::string::npos)
+          message.replace(at, name.size(), key_of(shape));
+      }
+  return InvalidInput(message, error.place());
+}
+
 }  // namespace
 
 DrawnScene::DrawnScene(const Problem& problem) {
@@ -45,16 +60,10 @@ DrawnScene::DrawnScene(const Problem& problem) {
   try {
     system_ = mechanics::lagrangian_system(text);
   } catch (const InvalidInput& error) {
-    std::string message = error.what();
-    for (const DrawnShape& shape : problem.draw)
-      for (std::size_t k = 0; k < shape.numbers.size(); ++k)
-        for (const std::string& prefix :
-             {std::string("constraints."), std::string("constraint "), std::string()}) {
-          const std::string name = prefix + constraint_of(shape, k) + index_of(shape.name.text);
-          if (const std::size_t at = message.find(name); at != std::string::npos)
-            message.replace(at, name.size(), key_of(shape));
-        }
-    throw InvalidInput(message, error.place());
+    convex::Mistakes mistakes;
+    mistakes.add(of_shapes(error, problem.draw));
+    for (const InvalidInput& other : error.others()) mistakes.add(of_shapes(other, problem.draw));
+    mistakes.tell();
   }
   std::map<std::string, std::vector<Index>> members;
   const std::vector<mechanics::Constraint>& constraints = system_->constraints();

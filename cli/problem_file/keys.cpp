@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cli/problem_file/exact_number.hpp"
+#include "convex/mistakes.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace cli::inline problem_files {
@@ -140,14 +141,16 @@ std::string shown(const std::string& text) {
 
 void require_known_keys(const TomlValue& table, const std::string& where,
                         std::initializer_list<const char*> known) {
+  convex::Mistakes mistakes;
+  const std::vector<std::string> names(known.begin(), known.end());
   for (const TomlEntry& entry : table.table) {
-    const std::vector<std::string> names(known.begin(), known.end());
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
-    throw InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
-                           (where.empty() ? "" : " in [" + where + "]") + "; " +
-                           advice_on_key(entry.key, entry.value.kind == TomlValue::Kind::table, where, names),
-                       entry.place);
+    mistakes.add(InvalidInput(
+        "unknown key \"" + shown(entry.key) + "\"" + (where.empty() ? "" : " in [" + where + "]") + "; " +
+            advice_on_key(entry.key, entry.value.kind == TomlValue::Kind::table, where, names),
+        entry.place));
   }
+  mistakes.tell();
 }
 
 const TomlValue& require_table(const TomlValue& value, const std::string& where) {

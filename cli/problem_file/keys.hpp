@@ -10,7 +10,7 @@ namespace cli::inline problem_files {
 /// A text from a file as it can stand in a message: short, and without control characters.
 std::string shown(const std::string& text);
 
-/// Refuses the first key of the table that is not known, naming the nearest known one. `where` is the table's
+/// Refuses the keys of the table that are not known, naming the nearest known ones. `where` is the table's
 /// name for the message, "" at the top.
 void require_known_keys(const TomlValue& table, const std::string& where,
                         std::initializer_list<const char*> known);

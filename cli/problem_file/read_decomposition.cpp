@@ -3,6 +3,7 @@
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
+#include "convex/mistakes.hpp"
 
 namespace cli::inline problem_files {
 
@@ -42,14 +43,20 @@ DecompositionProblem read_decomposition(const TomlValue& table, const std::strin
   if (z == nullptr || f == nullptr)
     throw InvalidInput("decomposition: z and f are needed; give both, z = [3, -1] and f = \"norm1()\"",
                        table.place);
-  convex::Vector point = read_vector(*z, "z");
-  if (point.size() == 0) throw InvalidInput("z: empty; give at least one number", z->place);
+  convex::Mistakes mistakes;
+  convex::Vector point;
+  convex::Call call;
+  mistakes.gather([&] {
+    point = read_vector(*z, "z");
+    if (point.size() == 0) throw InvalidInput("z: empty; give at least one number", z->place);
+  });
+  mistakes.gather([&] { call = parse_call(require_string(*f, "f"), "f", f->content); });
+  mistakes.tell();
   const convex::Index n = point.size();
   convex::Metric W =
       metric == nullptr
           ? convex::Metric::identity(n)
           : read_metric(*metric, {"decomposition", "metric", directory, n, "one per entry of z"});
-  convex::Call call = parse_call(require_string(*f, "f"), "f", f->content);
   // The document outlives no reading: what proofs need of it is copied.
   const std::optional<TomlValue> gram = metric == nullptr ? std::nullopt : std::optional(*metric);
   auto exact = [call, z = *z, gram, W] {

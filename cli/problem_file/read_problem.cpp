@@ -7,6 +7,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/tables.hpp"
+#include "convex/mistakes.hpp"
 
 namespace cli::inline problem_files {
 namespace {
@@ -14,6 +15,14 @@ namespace {
 using convex::InvalidInput;
 
 constexpr std::array kinds{"system", "projection", "decomposition", "cone", "liquid"};
+constexpr std::initializer_list<const char*> known_keys{"title",         "system", "state",  "projection",
+                                                        "decomposition", "cone",   "liquid", "solve",
+                                                        "simulate",      "draw",   "bodies"};
+
+bool is_unknown_table(const TomlEntry& entry) {
+  return entry.value.kind == TomlValue::Kind::table &&
+         std::find(known_keys.begin(), known_keys.end(), entry.key) == known_keys.end();
+}
 
 /// The one table that says what the file is about.
 const TomlEntry& content_table(const TomlValue& document) {
@@ -36,6 +45,18 @@ const TomlEntry& content_table(const TomlValue& document) {
   return *found;
 }
 
+ProjectionProblem read_numbers(const std::shared_ptr<TomlValue>& document, const TomlValue& table,
+                               const std::string& directory) {
+  ProjectionProblem projection = read_projection(table, directory);
+  projection.are_doubles = is_made_of_doubles(table);
+  if (projection.are_doubles) return projection;
+  projection.exact = [document, &table, rounded = projection.problem] {
+    return read_exact_projection(table, rounded);
+  };
+  projection.problem.radii = rounded_rows(table, projection.problem);
+  return projection;
+}
+
 }  // namespace
 
 Problem read_problem(const std::string& text, const std::string& directory) {
@@ -46,45 +67,37 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   const auto kept = std::make_shared<TomlValue>(given);
   write_long_integers_out(*kept, directory);
   const TomlValue& document = *kept;
-  require_known_keys(document, "",
-                     {"title", "system", "state", "projection", "decomposition", "cone", "liquid", "solve",
-                      "simulate", "draw", "bodies"});
   Problem problem;
-  if (const TomlValue* title = document.find("title")) problem.title = shown(require_string(*title, "title"));
-  if (const TomlValue* settings = document.find("solve")) problem.solve = read_solve_settings(*settings);
-  if (const TomlValue* simulate = document.find("simulate"))
-    problem.simulate = read_simulate_settings(*simulate);
-  const TomlEntry& content = content_table(document);
-  require_table(content.value, content.key);
-  const TomlValue* state = document.find("state");
-  if (content.key != "system" && state != nullptr)
-    throw InvalidInput("[state] goes with [system] only; take it out", state->place);
-  const TomlValue* draw = document.find("draw");
-  if (content.key != "system" && draw != nullptr)
-    throw InvalidInput("[draw] goes with [system] only; take it out", draw->place);
-  const TomlValue* bodies = document.find("bodies");
-  if (content.key != "system" && bodies != nullptr)
-    throw InvalidInput("[bodies] goes with [system] only; take it out", bodies->place);
-  if (draw != nullptr) problem.draw = read_draw(*draw);
-  if (content.key == "system") {
-    problem.content = read_system(document, directory);
-  } else if (content.key == "projection") {
-    ProjectionProblem projection = read_projection(content.value, directory);
-    projection.are_doubles = is_made_of_doubles(content.value);
-    if (!projection.are_doubles) {
-      projection.exact = [kept, &table = content.value, rounded = projection.problem] {
-        return read_exact_projection(table, rounded);
-      };
-      projection.problem.radii = rounded_rows(content.value, projection.problem);
-    }
-    problem.content = std::move(projection);
-  } else if (content.key == "decomposition") {
-    problem.content = read_decomposition(content.value, directory);
-  } else if (content.key == "liquid") {
-    problem.content = read_liquid(content.value);
-  } else {
-    problem.content = read_cone(content.value, directory);
+  convex::Mistakes mistakes;
+  mistakes.gather([&] { require_known_keys(document, "", known_keys); });
+  const auto read = [&](const char* key, const auto& work) {
+    if (const TomlValue* value = document.find(key)) mistakes.gather([&] { work(*value); });
+  };
+  read("title", [&](const TomlValue& title) { problem.title = shown(require_string(title, "title")); });
+  read("solve", [&](const TomlValue& settings) { problem.solve = read_solve_settings(settings); });
+  read("simulate", [&](const TomlValue& settings) { problem.simulate = read_simulate_settings(settings); });
+  // What stands in a table with a wrong name may be what the others need.
+  if (std::any_of(document.table.begin(), document.table.end(), is_unknown_table)) mistakes.tell();
+  const TomlEntry* content = nullptr;
+  if (!mistakes.gather([&] { content = &content_table(document); })) mistakes.tell();
+  const bool is_system = content->key == "system";
+  for (const char* key : {"state", "draw", "bodies"})
+    read(key, [&](const TomlValue& table) {
+      if (!is_system)
+        throw InvalidInput("[" + std::string(key) + "] goes with [system] only; take it out", table.place);
+    });
+  if (is_system) {
+    read("draw", [&](const TomlValue& draw) { problem.draw = read_draw(draw); });
+    problem.content = read_system(document, directory, mistakes);
   }
+  mistakes.gather([&] {
+    require_table(content->value, content->key);
+    if (content->key == "projection") problem.content = read_numbers(kept, content->value, directory);
+    if (content->key == "decomposition") problem.content = read_decomposition(content->value, directory);
+    if (content->key == "liquid") problem.content = read_liquid(content->value);
+    if (content->key == "cone") problem.content = read_cone(content->value, directory);
+  });
+  mistakes.tell();
   return problem;
 }
 

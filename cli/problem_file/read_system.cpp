@@ -4,6 +4,7 @@
 #include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/table_points.hpp"
 #include "cli/problem_file/tables.hpp"
+#include "mechanics/lagrangian_system.hpp"
 
 namespace cli::inline problem_files {
 namespace {
@@ -29,15 +30,33 @@ Text expression(const TomlValue& value, const std::string& where) {
 std::vector<NamedText> named(const TomlValue* table, const std::string& where) {
   std::vector<NamedText> entries;
   if (table == nullptr) return entries;
+  convex::Mistakes mistakes;
   for (const TomlEntry& entry : require_table(*table, where).table)
-    entries.push_back({{entry.key, entry.place}, expression(entry.value, where + "." + shown(entry.key))});
+    mistakes.gather([&] {
+      entries.push_back({{entry.key, entry.place}, expression(entry.value, where + "." + shown(entry.key))});
+    });
+  mistakes.tell();
   return entries;
 }
 
+/// Whether all names are where they are looked for, and so are T and the coordinates, whatever other key is
+/// unknown.
+bool has_known_keys(const TomlValue& table, const TomlValue* bodies, convex::Mistakes& mistakes) {
+  if (mistakes.gather([&] {
+        require_known_keys(table, "system",
+                           {"coordinates", "kinetic", "potential", "parameters", "definitions", "forces",
+                            "constraints", "looseness"});
+      }))
+    return true;
+  for (const TomlEntry& entry : table.table)
+    if (entry.value.kind == TomlValue::Kind::table && entry.key != "parameters" &&
+        entry.key != "definitions" && entry.key != "forces" && entry.key != "constraints" &&
+        entry.key != "looseness")
+      return false;
+  return bodies != nullptr || (table.find("coordinates") != nullptr && table.find("kinetic") != nullptr);
+}
+
 mechanics::LagrangianText read_lagrangian(const TomlValue& table, const TomlValue* bodies) {
-  require_known_keys(table, "system",
-                     {"coordinates", "kinetic", "potential", "parameters", "definitions", "forces",
-                      "constraints", "looseness"});
   mechanics::LagrangianText system;
   const TomlValue* coordinates = table.find("coordinates");
   const bool needed = bodies == nullptr;
@@ -133,20 +152,28 @@ void add_looseness(SystemProblem& problem, const TomlValue* table) {
 
 }  // namespace
 
-SystemProblem read_system(const TomlValue& document, const std::string& directory) {
+SystemProblem read_system(const TomlValue& document, const std::string& directory,
+                          convex::Mistakes& mistakes) {
   const TomlValue& system = *document.find("system");
-  const TomlValue* state = document.find("state");
-  SystemProblem problem{read_lagrangian(system, document.find("bodies")), {}, {}};
-  if (state == nullptr)
-    throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
-                       system.place);
+  const TomlValue *state = document.find("state"), *bodies = document.find("bodies");
+  SystemProblem problem;
+  if (!mistakes.gather([&] { require_table(system, "system"); })) return problem;
+  if (!has_known_keys(system, bodies, mistakes)) return problem;
+  bool is_read = mistakes.gather([&] { problem.system = read_lagrangian(system, bodies); });
   problem.system.table_file = [directory](const std::string& file) {
     return read_table_points(file.empty() || file[0] == '/' || directory.empty() ? file
                                                                                  : directory + "/" + file);
   };
-  add_looseness(problem, system.find("looseness"));
-  problem.state = read_state(require_table(*state, "state"));
-  problem.declared = read_declared(*state);
+  is_read = mistakes.gather([&] { add_looseness(problem, system.find("looseness")); }) && is_read;
+  if (state == nullptr && !is_read) return problem;  // it may be what stands in another table
+  mistakes.gather([&] {
+    if (state == nullptr)
+      throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
+                         system.place);
+    problem.state = read_state(require_table(*state, "state"));
+    problem.declared = read_declared(*state);
+  });
+  if (!mistakes.none() && is_read) mechanics::gather_mistakes(problem.system, problem.state, mistakes);
   return problem;
 }
 

@@ -2,12 +2,15 @@
 
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/toml_document.hpp"
+#include "convex/mistakes.hpp"
 
 namespace cli::inline problem_files {
 
 /// `[system]` with its sub-tables, and `[state]` of the same document; tables in files are looked for in
-/// `directory`.
-SystemProblem read_system(const TomlValue& document, const std::string& directory);
+/// `directory`. What is wrong is added to the mistakes; where there are some, so are those of its
+/// expressions.
+SystemProblem read_system(const TomlValue& document, const std::string& directory,
+                          convex::Mistakes& mistakes);
 
 /// `[bodies]`: rigid bodies in space, by their coordinates, their part of T and |e| = 1.
 void add_bodies(const TomlValue& bodies, mechanics::LagrangianText& system);

@@ -42,7 +42,8 @@ std::shared_ptr<FollowedSystem> begin(const Document& document, const py::dict& 
   take_positive(choice.tolerance, given, "tolerance");
   take(choice.step_limit, given, "step_limit");
   const py::gil_scoped_release released;
-  std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text->system);
+  std::shared_ptr<const mechanics::LagrangianSystem> system =
+      mechanics::lagrangian_system(text->system, text->state);
   const mechanics::State state = system->state(text->state);
   std::vector<std::string> constraints = cli::constraint_names(*system);
   mechanics::Motion motion(*system, state, cli::motion_options(problem, *system, choice));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "convex/mistakes.hpp"
+
 namespace mechanics::expression {
 namespace {
 
@@ -105,9 +107,7 @@ Rank rank(const Key& key) {
   return Rank::range;
 }
 
-namespace {
-
-const Family& coordinate_of(const Key& key, const Names& names, const std::vector<Family>& coordinates) {
+const Name& coordinate_named(const Key& key, const Names& names) {
   const Name* meaning = names.find(key.name);
   if (meaning == nullptr)
     key.source->fail(0, quoted(key.name) + " is no coordinate" +
@@ -116,17 +116,14 @@ const Family& coordinate_of(const Key& key, const Names& names, const std::vecto
     key.source->fail(0, quoted(key.name) + " is " + std::string(article_and_kind(meaning->kind)) +
                             ", not a coordinate" +
                             names.suggestion(key.name, {Name::Kind::coordinate}, {}, false));
-  const Family& family = coordinates[meaning->index];
   if (key.indices.size() != meaning->indices)
     key.source->fail(0, meaning->indices == 0
                             ? quoted(key.name) + " has no index; write it without [ ]"
                             : quoted(key.name) + " is a family with " + std::to_string(meaning->indices) +
                                   (meaning->indices == 1 ? " index; write " + key.name + "[i]"
                                                          : " indices; give as many"));
-  return family;
+  return *meaning;
 }
-
-}  // namespace
 
 Assignment assign_to_coordinates(const std::vector<NamedText>& texts, const std::string& table,
                                  const std::string& value_of, const Names& names,
@@ -137,10 +134,10 @@ Assignment assign_to_coordinates(const std::vector<NamedText>& texts, const std:
   Assignment result{{}, std::vector<std::uint32_t>(n, no_entry)};
   constexpr std::array ranks{Rank::family, Rank::range, Rank::member};
   std::vector<std::array<std::uint32_t, ranks.size()>> given(n, {no_entry, no_entry, no_entry});
-  for (const NamedText& text : texts) {
+  const auto assign = [&](const NamedText& text) {
     const auto number = static_cast<std::uint32_t>(result.entries.size());
     Key key = parse_key(sources.add(text.name, table), names, false);
-    const Family& family = coordinate_of(key, names, coordinates);
+    const Family& family = coordinates[coordinate_named(key, names).index];
     const Source& value = sources.add(text.value, value_of + text.name.text);
     result.entries.push_back({key, parse_expression(value, {&names, vocabulary, key.index_names()})});
     const auto list = tuples(key, &family.members, expansion);
@@ -161,7 +158,10 @@ Assignment assign_to_coordinates(const std::vector<NamedText>& texts, const std:
         refuse_overlap(key, member_name(family.name, tuple), result.entries[entries[place]].key);
       entries[place] = number;
     }
-  }
+  };
+  convex::Mistakes mistakes;
+  for (const NamedText& text : texts) mistakes.gather([&] { assign(text); });
+  mistakes.tell();
   for (std::uint32_t i = 0; i < n; ++i)
     for (const std::uint32_t entry : given[i])
       if (entry != no_entry) result.entry_of[i] = entry;  // the highest rank comes last

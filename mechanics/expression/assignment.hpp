@@ -21,6 +21,10 @@ struct Assignment {
 };
 
 /// `keys` and values as texts (forces, positions, velocities); `table` names them in messages: "forces".
+/// What a key of a table over coordinates is about. Throws InvalidInput where it is no coordinate, or has
+/// other indices.
+const Name& coordinate_named(const Key& key, const Names& names);
+
 Assignment assign_to_coordinates(const std::vector<NamedText>& texts, const std::string& table,
                                  const std::string& value_of, const Names& names,
                                  const std::vector<Family>& coordinates, Vocabulary vocabulary,

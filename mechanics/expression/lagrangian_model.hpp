@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "convex/mistakes.hpp"
 #include "mechanics/expression/expansion.hpp"
 #include "mechanics/expression/program.hpp"
 #include "mechanics/expression/velocity_hessian.hpp"
@@ -38,6 +39,9 @@ struct LagrangianModel {
 
 /// Parses, expands and checks; throws InvalidInput with the place.
 std::unique_ptr<const LagrangianModel> read_lagrangian(const LagrangianText& text);
+
+/// Adds what is wrong in each expression of the text, and of the state, by itself: its form and its names.
+void gather_mistakes(const LagrangianText& text, const StateText& state, convex::Mistakes& mistakes);
 
 /// A state of the model, from text.
 State read_state(const LagrangianModel& model, const StateText& text);

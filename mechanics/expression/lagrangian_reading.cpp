@@ -29,6 +29,40 @@ class Reading {
     build_programs();
   }
 
+  void gather_mistakes(const StateText& state, convex::Mistakes& mistakes) {
+    if (!mistakes.gather([&] { declare_names(); })) return;  // whatever uses the name would be told, too
+    const Scope everything{&model_.names, Vocabulary::system, {}};
+    const auto gather = [&](const Text& value, const std::string& what, const Scope& scope) {
+      mistakes.gather([&] { parse_expression(model_.sources.add(value, what), scope); });
+    };
+    for (const NamedText& p : text_.parameters)
+      gather(p.value, "parameter " + p.name.text, {&model_.names, Vocabulary::parameters, {}});
+    for (const Source* key : coordinate_keys_) mistakes.gather([&] { parse_key(*key, model_.names, true); });
+    gather(text_.kinetic, "kinetic", everything);
+    if (text_.potential) gather(*text_.potential, "potential", everything);
+    if (state.t) gather(*state.t, "t of the state", everything);
+    const auto gather_in = [&](const std::vector<NamedText>& texts, const char* table, const char* value_of) {
+      const bool are_constraints = &texts == &text_.constraints;
+      const bool are_of_coordinates = !are_constraints && &texts != &text_.definitions;
+      for (const NamedText& text : texts)
+        mistakes.gather([&] {
+          const Key key = parse_key(model_.sources.add(text.name, table), model_.names, false);
+          if (are_of_coordinates) coordinate_named(key, model_.names);
+          const Source& value = model_.sources.add(text.value, value_of + text.name.text);
+          const Scope scope{&model_.names, Vocabulary::system, key.index_names()};
+          if (are_constraints)
+            parse_relation(value, scope);
+          else
+            parse_expression(value, scope);
+        });
+    };
+    gather_in(text_.definitions, "definitions", "definition ");
+    gather_in(text_.forces, "forces", "force on ");
+    gather_in(text_.constraints, "constraints", "constraint ");
+    gather_in(state.position, "position", "position of ");
+    gather_in(state.velocity, "velocity", "velocity of ");
+  }
+
  private:
   struct Group {  // the keys of one family, in the file's order
     std::string name;
@@ -247,6 +281,11 @@ std::unique_ptr<const LagrangianModel> read_lagrangian(const LagrangianText& tex
   auto model = std::make_unique<LagrangianModel>();
   Reading(text, *model).read();
   return model;
+}
+
+void gather_mistakes(const LagrangianText& text, const StateText& state, convex::Mistakes& mistakes) {
+  LagrangianModel model;
+  Reading(text, model).gather_mistakes(state, mistakes);
 }
 
 }  // namespace mechanics::expression

@@ -78,7 +78,14 @@ State read_state(const LagrangianModel& model, const StateText& text) {
     state.q = values_of(nodes.q, text, text.position, numbers, "position", model, missing);
     state.v = values_of(nodes.v, text, text.velocity, numbers, "velocity", model, at_rest);
   } else {
-    state.q = read_values(model, text.position, "position", state.t, sources, expansion, missing);
+    convex::Mistakes mistakes;
+    mistakes.gather([&] {
+      state.q = read_values(model, text.position, "position", state.t, sources, expansion, missing);
+    });
+    mistakes.gather([&] {
+      state.v = read_values(model, text.velocity, "velocity", state.t, sources, expansion, at_rest);
+    });
+    mistakes.tell();
   }
   if (!missing.empty()) {
     constexpr std::size_t most_named = 5;
@@ -90,8 +97,6 @@ State read_state(const LagrangianModel& model, const StateText& text) {
         "position: " + list + " missing; give every coordinate",
         text.position_table ? std::optional(text.position_table->begin) : std::nullopt);
   }
-  if (!by_nodes)
-    state.v = read_values(model, text.velocity, "velocity", state.t, sources, expansion, at_rest);
   return state;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "convex/invalid_input.hpp"
+#include "convex/mistakes.hpp"
 
 namespace mechanics::liquid {
 namespace {
@@ -16,13 +16,20 @@ using expression::NodeId;
 /// The parts of the boundary in the order in which they are tried.
 std::vector<BoundaryPart> read_parts(LiquidLanguage& language, const LiquidText& text) {
   std::vector<BoundaryPart> parts;
+  convex::Mistakes mistakes;
   for (const bool is_free : {true, false})
     for (const PartText& part : is_free ? text.free : text.walls) {
       const std::string what = (is_free ? "free." : "walls.") + part.name.text;
-      parts.push_back({part.name.text, is_free, Condition(language, part.where, what + ".where"),
-                       language.field(part.value, what + (is_free ? ".pressure" : ".acceleration")),
-                       part.name.begin});
+      const auto value = [&] {
+        return language.field(part.value, what + (is_free ? ".pressure" : ".acceleration"));
+      };
+      const bool is_read = mistakes.gather([&] {
+        parts.push_back({part.name.text, is_free, Condition(language, part.where, what + ".where"), value(),
+                         part.name.begin});
+      });
+      if (!is_read) mistakes.gather(value);
     }
+  mistakes.tell();
   return parts;
 }
 
@@ -168,33 +175,40 @@ LiquidScene read_scene(const LiquidText& text) {
   LiquidScene scene;
   const std::size_t d = text.coordinates.size();
   scene.coordinates = language.coordinates();
-  scene.domain = read_domain(language, text);
-  scene.density = language.number(text.density, "density");
-  scene.written_density = language.rounded(text.density, "density");
-  if (!(scene.density > 0))
-    throw InvalidInput("density: it is not above 0; give a density > 0", text.density.begin);
+  convex::Mistakes mistakes;
+  mistakes.gather([&] { scene.domain = read_domain(language, text); });
+  mistakes.gather([&] {
+    scene.density = language.number(text.density, "density");
+    scene.written_density = language.rounded(text.density, "density");
+    if (!(scene.density > 0))
+      throw InvalidInput("density: it is not above 0; give a density > 0", text.density.begin);
+  });
   std::vector<std::vector<NodeId>> gradient(d, std::vector<NodeId>(d, no_node));  // ∂u_i/∂x_j
-  for (std::size_t i = 0; i < text.velocity.size(); ++i) {
-    const NodeId velocity = language.node(text.velocity[i], "velocity");
-    scene.velocity.push_back(language.field(velocity, "velocity", text.velocity[i].begin));
-    gradient[i] = language.gradient(velocity);
-  }
+  for (std::size_t i = 0; i < text.velocity.size(); ++i)
+    mistakes.gather([&] {
+      const NodeId velocity = language.node(text.velocity[i], "velocity");
+      scene.velocity.push_back(language.field(velocity, "velocity", text.velocity[i].begin));
+      gradient[i] = language.gradient(velocity);
+    });
   NodeId trace = no_node, divergence = no_node;
   for (std::size_t i = 0; i < d; ++i) {
     for (std::size_t j = 0; j < d; ++j)
       trace = language.sum(trace, language.product(gradient[i][j], gradient[j][i]));
     scene.stretching.push_back(language.field(gradient[i][i], "velocity", text.domain.begin));
     if (text.force.empty()) continue;
-    const NodeId force = language.node(text.force[i], "force");
-    scene.force.push_back(language.field(force, "force", text.force[i].begin));
-    divergence = language.sum(divergence, language.gradient(force)[i]);
+    mistakes.gather([&] {
+      const NodeId force = language.node(text.force[i], "force");
+      scene.force.push_back(language.field(force, "force", text.force[i].begin));
+      divergence = language.sum(divergence, language.gradient(force)[i]);
+    });
   }
   const NodeId source = language.difference(trace, divergence);
-  if (source != no_node)
+  if (source != no_node && mistakes.none())
     scene.h = language.field(language.product(language.node(text.density, "density"), source),
                              "rho (tr((grad u)^2) - div F)",
                              text.force.empty() ? text.velocity.front().begin : text.force.front().begin);
-  scene.parts = read_parts(language, text);
+  mistakes.gather([&] { scene.parts = read_parts(language, text); });
+  mistakes.tell();
   scene.cells = text.cells;
   if (text.symmetry) {
     if (text.symmetry->text != "radial")

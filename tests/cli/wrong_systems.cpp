@@ -31,7 +31,7 @@ TEST_CASE("columns count characters, not bytes") {
   expect_refusal({point_on_floor({{1, "title = \"\u00e9\u4e2d\"\n[system]"}, {4, "\"\u00e9\" = 1"}}),
                   "5:1",
                   {"\u00e9"}});
-  expect_refusal({point_on_floor({{11, "position = { \"\u00e9\" = 0, q = 0 }"}}), "11:14", {"\u00e9"}});
+  expect_refusal({point_on_floor({{11, "position = { \"\u00e9\" = 0, x = 0 }"}}), "11:14", {"\u00e9"}});
 }
 
 TEST_CASE("an unknown name is pointed at inside its expression, with the nearest name") {

@@ -1,0 +1,91 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Json = nlohmann::ordered_json;
+using namespace tests;
+
+namespace {
+
+/// The lines on standard error behind "moreau: FILE:", of a file that is refused.
+std::vector<std::string> told(const std::string& text) {
+  const Folder folder;
+  const std::string file = folder.write("a.toml", text);
+  const Outcome outcome = run({"solve", file});
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  std::vector<std::string> lines;
+  const std::string before = "moreau: " + file + ":";
+  for (std::size_t at = 0; at < outcome.err.size();) {
+    const std::size_t end = outcome.err.find('\n', at);
+    const std::string line = outcome.err.substr(at, end - at);
+    CHECK(line.starts_with(before));
+    CHECK(line.find("; ") != std::string::npos);
+    lines.push_back(line.substr(before.size()));
+    at = end + 1;
+  }
+  return lines;
+}
+
+void check_told(const std::string& text, const std::vector<std::string>& beginnings) {
+  const std::vector<std::string> lines = told(text);
+  CAPTURE(text);
+  REQUIRE(lines.size() == beginnings.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    CAPTURE(lines[k]);
+    CAPTURE(beginnings[k]);
+    CHECK(lines[k].starts_with(beginnings[k]));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("mistakes of a file that do not hang on each other are told at once, in the order of the file") {
+  check_told(point_on_floor({{4, "potential = \"m*g*sinn(y)\""},
+                             {9, "floor = \"y > 0\""},
+                             {12, "velocity = { z = 0.0 }"},
+                             {13, "[simulate]\nuntill = 2\nsample = 3"}}),
+             {"4:18: potential: \"sinn\" is no function; did you mean \"sin\"?", "9:12: constraint floor: ",
+              "12:14: velocity: \"z\" is no coordinate; ", "14:1: unknown key \"untill\" in [simulate]; ",
+              "15:1: unknown key \"sample\" in [simulate]; "});
+  check_told(point_on_floor({{4, "potental = \"m*g*y\""}, {6, "m = \"2 kg\""}}),
+             {"4:1: unknown key \"potental\" in [system]; ", "6:8: parameter m: "});
+  check_told(point_on_floor({{11, "position = { x = \"0.0*\", y = \"q\" }"}}),
+             {"11:23: position of x: ", "11:31: position of y: "});
+  check_told("[decomposition]\nz = [1, \"two\"]\nf = \"norm1(\"\n", {"2:9: ", "3:"});
+  check_told(
+      "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"disk(center=[0, 0], radius=1)\"\ndensity = 0\n"
+      "force = [\"0\", \"-gg\"]\nfree = { top = { where = \"true\", pressure = \"p0\" } }\n",
+      {"3:11: domain: ", "4:11: density: ", "5:17: force: ", "6:46: free.top.pressure: "});
+}
+
+TEST_CASE("what follows from a mistake is not told as another one") {
+  // Names and tables that stand below a key with a wrong name are missed by nothing.
+  check_told(point_on_floor({{5, "[system.paramters]"}}), {"5:9: unknown key \"paramters\" in [system]; "});
+  check_told(point_on_floor({{10, "[stat]"}}), {"10:2: unknown key \"stat\"; "});
+  check_told(point_on_floor({{1, "[sistem]"}, {5, "[sistem.parameters]"}, {8, "[sistem.constraints]"}}),
+             {"1:2: unknown key \"sistem\"; "});
+  check_told(point_on_floor({{2, "coordinate = [\"x\", \"y\"]"}}),
+             {"2:1: unknown key \"coordinate\" in [system]; "});
+  check_told(point_on_floor({{6, "\"m-1\" = 2.0"}}), {"6:2: "});
+}
+
+TEST_CASE("the object of an error has the first one, and all of them as a list") {
+  const Outcome outcome =
+      run_json_on("solve", point_on_floor({{4, "potential = \"m*g*yy\""}, {14, "untill = 2"}}));
+  CHECK(outcome.code == 2);
+  const Json error = Json::parse(outcome.out);
+  CHECK(error.at("status") == "error");
+  CHECK(error.at("line") == 4);
+  REQUIRE(error.at("errors").size() == 2);
+  CHECK(error.at("errors")[0].at("message") == error.at("message"));
+  CHECK(error.at("errors")[1].at("line") == 14);
+  std::string many = "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2\"\n[state]\nposition = { x = 0 }\n";
+  for (int k = 0; k < 30; ++k) many += "key" + std::to_string(k) + " = 1\n";
+  const Outcome crowd = run_json_on("solve", many);
+  CHECK(Json::parse(crowd.out).at("errors").size() == 20);
+  CHECK(crowd.err.find(": and 10 more; ") != std::string::npos);
+}
