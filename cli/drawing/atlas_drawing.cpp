@@ -24,8 +24,9 @@ using convex::atlas::PlaneRegion;
 /// Pixels: the map between the numbers of its axes and the key.
 constexpr double map_left = 109, map_right = 521, map_frame = 416, map_above = 52, map_below = 62,
                  map_key = 537;
-/// Regions of a smaller part of the map have no arrows; the longest arrow is such a part of its width.
-constexpr double least_part = 0.02, longest_arrow = 0.12;
+/// Regions of a smaller part of the map have no arrows; the longest arrow is such a part of its width, and at
+/// least that where it would end beyond the map.
+constexpr double least_part = 0.02, longest_arrow = 0.12, least_arrow = 0.05;
 
 Eigen::Vector2d corner_at(const ParameterPolygon& polygon, std::size_t k) {
   return {convex::nearest_double(polygon.corners[k][0]), convex::nearest_double(polygon.corners[k][1])};
@@ -92,51 +93,58 @@ std::vector<std::size_t> region_fills(const std::vector<PlaneRegion>& regions) {
   return fills;
 }
 
-/// Pairs of arrows as they are drawn: each of the two components to the scale of its largest.
+/// Pairs of arrows as they are drawn: to one scale of the kinetic metric, in which a length and an angle have
+/// one, so that they point where the two components together lead.
 class ArrowsOnMap {
  public:
-  ArrowsOnMap(const std::vector<ArrowPair>& pairs, const Eigen::Vector2d& low, const Eigen::Vector2d& high)
-      : pairs_(pairs), size_(high - low), low_(low), high_(high) {
-    for (const ArrowPair& pair : pairs)
-      longest_ = longest_.cwiseMax(pair.free.cwiseAbs()).cwiseMax(pair.truth.cwiseAbs());
-    // An arrow at the border goes beyond it, and the axes with it: each begins where its force is.
+  /// `scale`: of each component. `shape`: the map's width and height in one unit.
+  ArrowsOnMap(const std::vector<ArrowPair>& pairs, const Eigen::Vector2d& scale, const Eigen::Vector2d& shape,
+              const Eigen::Vector2d& low, const Eigen::Vector2d& high)
+      : pairs_(pairs), per_unit_((high - low).cwiseProduct(scale).cwiseQuotient(shape)), size_(high - low) {
+    double longest = std::numeric_limits<double>::min();  // all are 0 there
     for (const ArrowPair& pair : pairs)
       for (const Eigen::Vector2d& vector : {pair.free, pair.truth}) {
-        const Eigen::Vector2d tip = pair.at + drawn(vector);
-        const Eigen::Vector2d room = 0.02 * size_;
-        if ((tip - low).minCoeff() < 0) low_ = low_.cwiseMin(tip - room);
-        if ((high - tip).minCoeff() < 0) high_ = high_.cwiseMax(tip + room);
+        longest_ = longest_.cwiseMax(vector.cwiseAbs());
+        longest = std::max(longest, vector.cwiseProduct(scale).norm());
       }
+    factor_ = longest_arrow * shape.x() / longest;
+    // Each begins where its force is, and ends on the map where it can.
+    const double least = least_arrow / longest_arrow * factor_;
+    for (const ArrowPair& pair : pairs)
+      for (const Eigen::Vector2d& vector : {pair.free, pair.truth})
+        for (Eigen::Index k = 0; k < 2; ++k) {
+          const double room = vector[k] < 0 ? pair.at[k] - low[k] : high[k] - pair.at[k];
+          const double step = std::abs(vector[k]) * per_unit_[k];
+          if (factor_ * step > room) factor_ = std::max(least, room / step);
+        }
   }
-  /// The window that has them all.
-  const Eigen::Vector2d& low() const { return low_; }
-  const Eigen::Vector2d& high() const { return high_; }
   const Eigen::Vector2d& longest() const { return longest_; }
-  /// The true acceleration is thin on the free one, so that both are seen where they are one.
+  /// The true acceleration is thin on the free one, on white, so that both are seen where they are one.
   std::string script() const {
     std::string text;
     for (const ArrowPair& pair : pairs_) {
-      text += arrow(pair.at, pair.free, "lc rgb \"#d55e00\" lw 4 size screen 0.016,28");
-      text += arrow(pair.at, pair.truth, "lc rgb \"#0072b2\" lw 1.6 size screen 0.012,16 filled");
+      text += arrow(pair.at, pair.free, "lc rgb \"#d55e00\" lw 4.6", 0.017, "28");
+      text += arrow(pair.at, pair.truth, "lc rgb \"#ffffff\" lw 2.6", 0.012, "16 filled");
+      text += arrow(pair.at, pair.truth, "lc rgb \"#0072b2\" lw 1.6", 0.012, "16 filled");
     }
     return text;
   }
 
  private:
-  Eigen::Vector2d drawn(const Eigen::Vector2d& vector) const {
-    constexpr double none = std::numeric_limits<double>::min();  // all are 0 there
-    return longest_arrow * vector.cwiseQuotient(longest_.cwiseMax(none)).cwiseProduct(size_);
-  }
-  std::string arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& vector, const char* style) const {
-    const Eigen::Vector2d step = drawn(vector);
-    constexpr double seen = 1e-3;
-    if (step.cwiseQuotient(size_).norm() < seen) return "";
-    return fmt::format("set arrow from {},{} rto {},{} front {}\n", from.x(), from.y(), step.x(), step.y(),
-                       style);
+  /// `head`: the length of its head, as a part of the page, and its form.
+  std::string arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& vector, const char* line, double head,
+                    const char* form) const {
+    const Eigen::Vector2d step = factor_ * vector.cwiseProduct(per_unit_);
+    const double length = step.cwiseQuotient(size_).norm();
+    constexpr double seen = 1e-3, map_on_page = 0.5, largest_head = 0.6;
+    if (length < seen) return "";
+    return fmt::format("set arrow from {},{} rto {},{} front {} size screen {:.4f},{}\n", from.x(), from.y(),
+                       step.x(), step.y(), line, std::min(head, largest_head * map_on_page * length), form);
   }
 
   const std::vector<ArrowPair>& pairs_;
-  Eigen::Vector2d size_, low_, high_, longest_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d per_unit_, size_, longest_ = Eigen::Vector2d::Zero();
+  double factor_ = 0;
 };
 
 /// Does the region have the point, its border counted in?
@@ -202,9 +210,8 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
   }
   const Eigen::Vector2d low(bound(map.over[0].low), bound(map.over[1].low)),
       high(bound(map.over[0].high), bound(map.over[1].high));
-  const ArrowsOnMap arrows(pairs, low, high);
   const auto coordinate = [&](std::size_t k) { return solved.coordinates[map.over[k].coordinate]; };
-  plot("NaN with lines lc rgb \"#d55e00\" lw 4 title \"free acceleration A⁻¹z\"");
+  plot("NaN with lines lc rgb \"#d55e00\" lw 4.6 title \"free acceleration A⁻¹z\"");
   plot("NaN with lines lc rgb \"#0072b2\" lw 1.6 title \"true acceleration\"");
   if (hatched) {
     key.emplace_back("dropping negatives is wrong");
@@ -212,6 +219,10 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
                      key.back()));
   }
   const double frame = std::max(map_frame, key_height(key.size()));
+  const auto scale = [&](std::size_t k) {
+    return std::sqrt(scene.problem.A.diagonal()[static_cast<convex::Index>(map.over[k].coordinate)]);
+  };
+  const ArrowsOnMap arrows(pairs, {scale(0), scale(1)}, {map_right - map_left, frame}, low, high);
   Drawing made;
   made.height = static_cast<int>(map_above + frame + map_below);
   made.width = width_with_key(map_key, key);
@@ -219,12 +230,11 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
   const double room = map_left + map_right - 12;
   std::string heading = heading_line(solved.title.empty() ? solved.file : solved.title, room);
   if (!pairs.empty())
-    heading +=
-        "\n" + heading_line(fmt::format("arrows: accelerations, the longest components {}'' = {} and {}'' "
-                                        "= {} drawn alike",
-                                        coordinate(0), number_text(arrows.longest().x()), coordinate(1),
-                                        number_text(arrows.longest().y())),
-                            room);
+    heading += "\n" + heading_line(fmt::format("arrows: accelerations, to one scale of the kinetic metric; "
+                                               "largest |{}''| = {}, |{}''| = {}",
+                                               coordinate(0), number_text(arrows.longest().x()),
+                                               coordinate(1), number_text(arrows.longest().y())),
+                                   room);
   made.script =
       data + arrows.script() +
       fmt::format(
@@ -237,8 +247,8 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
           "\",9\" "
           "samplen 1.5\n",
           map_left / made.width, map_right / made.width, 1 - map_above / made.height, map_below / made.height,
-          arrows.low().x(), arrows.high().x(), arrows.low().y(), arrows.high().y(), quoted(heading),
-          quoted(map.over[0].key + ", added"), quoted(map.over[1].key + ", added"), map_key / made.width) +
+          low.x(), high.x(), low.y(), high.y(), quoted(heading), quoted(map.over[0].key + ", added"),
+          quoted(map.over[1].key + ", added"), map_key / made.width) +
       plots + "\n";
   return made;
 }
