@@ -292,8 +292,8 @@ Exit sweep(const SweepOptions& options) {
     throw InvalidInput("--plot takes one or two --over; a table holds any number");
   const SweepSummary summary = sweep.run();
   if (options.plot)
-    draw(*options.plot,
-         sweep_drawing(sweep.record(), sweep.ranges(), sweep.watched(), sweep.constraints(), title));
+    draw(*options.plot, sweep_drawing(sweep.record(), sweep.ranges(), sweep.watched(), sweep.constraints(),
+                                      title, !options.watch.empty()));
   if (options.json)
     fmt::print("{}", summary_json(summary, sweep.table(), options));
   else if (options.output && !options.quiet)
@@ -326,9 +326,10 @@ void add_sweep(CLI::App& program, Work& chosen) {
       ->required()
       ->allow_extra_args(false);
   command
-      .add_option(
-          "--watch", options->watch,
-          "a column: x'', lambda[floor], reaction[x], gauss; default all accelerations and multipliers")
+      .add_option("--watch", options->watch,
+                  "a column: x'', lambda[floor], reaction[x], gauss, x, x', f[floor], df[floor], ddf[floor]; "
+                  "default all "
+                  "accelerations and multipliers")
       ->type_name("NAME")
       ->allow_extra_args(false);
   command.add_option("--output", options->output, "the table; default standard output")->type_name("F.csv");

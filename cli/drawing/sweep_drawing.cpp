@@ -73,7 +73,8 @@ struct CurvePanel {
 
 std::vector<CurvePanel> panels_of(const std::vector<Watched>& watched, bool is_unique) {
   const char* multipliers = is_unique ? "lambda" : "lambda: least norm; not unique";
-  std::vector<CurvePanel> panels{{"q''"}, {multipliers}, {"reaction"}, {"G"}};
+  std::vector<CurvePanel> panels{{"q''"}, {multipliers}, {"reaction"}, {"G"},      {"q"},
+                                 {"q'"},  {"f"},         {"df/dt"},    {"d²f/dt²"}};
   for (std::size_t k = 0; k < watched.size(); ++k) {
     CurvePanel& panel = panels[static_cast<std::size_t>(watched[k].of)];
     if (panel.columns.size() < most_drawn)
@@ -161,46 +162,99 @@ std::vector<double> borders_of(std::vector<double> values) {
   return borders;
 }
 
-Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>& ranges,
-            const ContactSets& sets, const std::string& title) {
-  const std::vector<double> x = borders_of(ranges[0].values), y = borders_of(ranges[1].values);
-  const auto cell = [](const std::vector<double>& borders, double value) {
-    const auto above = std::upper_bound(borders.begin(), borders.end(), value);
-    const auto k = static_cast<std::size_t>(above - borders.begin());
-    return std::pair{borders[k - 1], borders[k]};
-  };
-  std::vector<std::string> data(sets.names().size());
-  for (const SweepPoint& point : points) {
-    const auto [left, right] = cell(x, point.at[0]);
-    const auto [low, high] = cell(y, point.at[1]);
-    data[sets.of(point)] +=
-        fmt::format("{} {} {} {} {} {}\n", point.at[0], point.at[1], left, right, low, high);
+/// The cells of a grid of points.
+class Cells {
+ public:
+  explicit Cells(const std::vector<SweepRange>& ranges)
+      : x(borders_of(ranges[0].values)), y(borders_of(ranges[1].values)) {}
+  /// By its numbers along x and y.
+  std::pair<std::size_t, std::size_t> of(const SweepPoint& point) const {
+    return {below(x, point.at[0]), below(y, point.at[1])};
   }
+  const std::vector<double> x, y;
+
+ private:
+  static std::size_t below(const std::vector<double>& borders, double value) {
+    return static_cast<std::size_t>(std::upper_bound(borders.begin(), borders.end(), value) -
+                                    borders.begin()) -
+           1;
+  }
+};
+
+/// A page with the axes of two ranges, and what is in its key.
+Drawing page_of_map(const Cells& cells, const std::vector<SweepRange>& ranges, const std::string& title,
+                    const std::vector<std::string>& key) {
   constexpr double above = 34, below = 58, least_frame = 390, key_apart = 12;
-  const double frame = std::max(least_frame, key_height(data.size()));
+  const double frame = std::max(least_frame, key_height(key.size()));
   Drawing made;
   made.height = static_cast<int>(above + frame + below);
-  made.width = width_with_key(sweep_right, sets.names());
-  for (std::size_t k = 0; k < data.size(); ++k)
-    made.script += fmt::format("$set{} << EOD\n{}EOD\n", k, data[k]);
-  made.script += fmt::format(
+  made.width = width_with_key(sweep_right, key);
+  made.script = fmt::format(
       "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset title {} font "
       "\",11\" offset 0,-0.4\n"
       "set bmargin at screen {}\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
       "set tics nomirror out font \",9\"\nset key at screen {}, graph 1 left top Left reverse font \",9\" "
-      "samplen 1.5\n{}{}plot ",
+      "samplen 1.5\n{}{}",
       sweep_left / made.width, sweep_right / made.width, 1 - above / made.height,
-      quoted(heading_line(title, sweep_left + sweep_right - 12)), below / made.height, x.front(), x.back(),
-      y.front(), y.back(), quoted(ranges[0].key), quoted(ranges[1].key),
-      (sweep_right + key_apart) / made.width, tic_format("x", {x.front(), x.back()}),
-      tic_format("y", {y.front(), y.back()}));
+      quoted(heading_line(title, sweep_left + sweep_right - 12)), below / made.height, cells.x.front(),
+      cells.x.back(), cells.y.front(), cells.y.back(), quoted(ranges[0].key), quoted(ranges[1].key),
+      (sweep_right + key_apart) / made.width, tic_format("x", {cells.x.front(), cells.x.back()}),
+      tic_format("y", {cells.y.front(), cells.y.back()}));
+  return made;
+}
+
+Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>& ranges,
+            const ContactSets& sets, const std::string& title) {
+  const Cells cells(ranges);
+  std::vector<std::string> data(sets.names().size());
+  for (const SweepPoint& point : points) {
+    const auto [i, j] = cells.of(point);
+    data[sets.of(point)] += fmt::format("{} {} {} {} {} {}\n", point.at[0], point.at[1], cells.x[i],
+                                        cells.x[i + 1], cells.y[j], cells.y[j + 1]);
+  }
+  Drawing made = page_of_map(cells, ranges, title, sets.names());
+  std::string blocks;
+  for (std::size_t k = 0; k < data.size(); ++k) blocks += fmt::format("$set{} << EOD\n{}EOD\n", k, data[k]);
+  made.script = blocks + made.script + "plot ";
   constexpr std::size_t with_borders = 2500;
   const std::string border = points.size() <= with_borders ? "border lc rgb \"#bbbbbb\"" : "noborder";
   for (std::size_t k = 0; k < data.size(); ++k)
     made.script += fmt::format("{}$set{} using 1:2:3:4:5:6 with boxxyerror {} lw 0.4 title {}",
                                k > 0 ? ", \\\n  " : "", k, set_fill(k, border), quoted(sets.names()[k]));
   made.script += "\n";
+  return made;
+}
+
+/// The colours of one number, lines where the contacts change, white where there is no answer.
+Drawing map_of_number(const std::vector<SweepPoint>& points, const std::vector<SweepRange>& ranges,
+                      const ContactSets& sets, const Watched& watched, const std::string& title) {
+  const Cells cells(ranges);
+  const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1, none = sets.names().size();
+  std::vector<std::size_t> set_of(columns * rows, none);
+  std::string values, lines;
+  for (const SweepPoint& point : points) {
+    const auto [i, j] = cells.of(point);
+    set_of[i * rows + j] = sets.of(point);
+    if (!std::isfinite(point.watched[0])) continue;
+    values += fmt::format("{} {} {} {} {} {} {}\n", point.at[0], point.at[1], cells.x[i], cells.x[i + 1],
+                          cells.y[j], cells.y[j + 1], point.watched[0]);
+  }
+  for (std::size_t i = 0; i < columns; ++i)
+    for (std::size_t j = 0; j < rows; ++j) {
+      if (i + 1 < columns && set_of[i * rows + j] != set_of[(i + 1) * rows + j])
+        lines += fmt::format("{0} {1}\n{0} {2}\n\n", cells.x[i + 1], cells.y[j], cells.y[j + 1]);
+      if (j + 1 < rows && set_of[i * rows + j] != set_of[i * rows + j + 1])
+        lines += fmt::format("{0} {2}\n{1} {2}\n\n", cells.x[i], cells.x[i + 1], cells.y[j + 1]);
+    }
+  Drawing made = page_of_map(cells, ranges, title + ": " + watched.name + "; lines: the contacts change",
+                             {std::string(8, ' ')});
+  made.script = "$values << EOD\n" + (values.empty() ? "NaN NaN NaN NaN NaN NaN NaN\n" : values) +
+                "EOD\n$changes << EOD\n" + (lines.empty() ? "NaN NaN\n" : lines) + "EOD\n" + made.script +
+                "unset key\nset palette defined (0 '#f7fbff', 0.5 '#6baed6', 1 '#08306b')\n" +
+                "set colorbox user origin graph 1.04,0 size graph 0.035,1\n" +
+                "plot $values using 1:2:3:4:5:6:7 with boxxyerror fc palette fs solid noborder, \\\n" +
+                "  $changes with lines lc rgb \"#222222\" lw 1.2\n";
   return made;
 }
 
@@ -222,10 +276,12 @@ void SweepRecord::add(const SweepPoint& point) {
 
 Drawing sweep_drawing(const SweepRecord& record, const std::vector<SweepRange>& ranges,
                       const std::vector<Watched>& watched, const std::vector<std::string>& constraints,
-                      const std::string& title) {
+                      const std::string& title, bool is_chosen) {
   const ContactSets sets(record.points(), constraints);
-  return ranges.size() == 1 ? bands(record.points(), ranges[0], watched, sets, title)
-                            : map(record.points(), ranges, sets, title);
+  if (ranges.size() == 1) return bands(record.points(), ranges[0], watched, sets, title);
+  return is_chosen && watched.size() == 1
+             ? map_of_number(record.points(), ranges, sets, watched.front(), title)
+             : map(record.points(), ranges, sets, title);
 }
 
 }  // namespace cli::inline drawings

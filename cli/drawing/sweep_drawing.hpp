@@ -17,8 +17,8 @@ class SweepRecord {
 };
 
 /// Over one range: what is watched as curves, the sets of contacts that persist as bands behind them. Over
-/// two: a map of these sets.
+/// two: a map of these sets, or of one number that was chosen, with lines between the sets.
 Drawing sweep_drawing(const SweepRecord&, const std::vector<SweepRange>&, const std::vector<Watched>&,
-                      const std::vector<std::string>& constraints, const std::string& title);
+                      const std::vector<std::string>& constraints, const std::string& title, bool is_chosen);
 
 }  // namespace cli::inline drawings

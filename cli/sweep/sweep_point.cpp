@@ -20,18 +20,6 @@ using convex::InvalidInput;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-std::optional<Index> place_of(const std::vector<std::string>& names, const std::string& name) {
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (names[k] == name) return static_cast<Index>(k);
-  return std::nullopt;
-}
-
-/// "lambda[floor]" begins with "lambda[" and ends with "]": what stands within.
-std::optional<std::string> within(const std::string& name, const std::string& prefix) {
-  if (name.rfind(prefix, 0) != 0 || name.back() != ']') return std::nullopt;
-  return name.substr(prefix.size(), name.size() - prefix.size() - 1);
-}
-
 /// Of a row that depends on others: coefficients below this part of the largest are rounding.
 constexpr double rounded_part = 1e-8;
 
@@ -81,6 +69,33 @@ std::optional<HeldMotion> motion_with(const convex::NearestPointProblem& problem
   return found;
 }
 
+/// `lambda`: of every constraint, those of least norm.
+double number_of(const Watched& one, const SolvedScene& solved, const convex::Vector& lambda) {
+  const mechanics::GaussSolution& solution = solved.solution;
+  switch (one.of) {
+    case Watched::Of::acceleration:
+      return solution.primal.q[one.index];
+    case Watched::Of::multiplier:
+      if (solved.is_weighed(static_cast<std::size_t>(one.index))) return no_number;
+      return lambda[one.index];
+    case Watched::Of::reaction:
+      return solution.reaction[one.index];
+    case Watched::Of::gauss:
+      return solution.gauss;
+    case Watched::Of::position:
+      return solved.scene.state.q[one.index];
+    case Watched::Of::velocity:
+      return solved.scene.state.v[one.index];
+    case Watched::Of::f:
+      return solved.scene.rates->f[one.index];
+    case Watched::Of::df:
+      return solved.scene.rates->df[one.index];
+    case Watched::Of::ddf:
+      return solved.second_rates[one.index];
+  }
+  return no_number;
+}
+
 }  // namespace
 
 SweepScene::SweepScene(TomlValue document, std::string file, std::vector<std::string> keys,
@@ -103,41 +118,34 @@ std::vector<Watched> SweepScene::watched(const std::vector<std::string>& names,
                                          const std::vector<double>& at) {
   const Names known = this->names(at);
   constraints_ = known.constraints;
-  std::vector<Watched> found;
-  if (names.empty()) {
-    for (std::size_t i = 0; i < known.coordinates.size(); ++i)
-      found.push_back({known.coordinates[i] + "''", Watched::Of::acceleration, static_cast<Index>(i)});
-    for (std::size_t a = 0; a < known.constraints.size(); ++a)
-      found.push_back(
-          {"lambda[" + known.constraints[a] + "]", Watched::Of::multiplier, static_cast<Index>(a)});
+  std::vector<Watched> all, found;
+  const auto add = [&](const char* before, const std::vector<std::string>& names_of, const char* after,
+                       Watched::Of of) {
+    for (std::size_t k = 0; k < names_of.size(); ++k)
+      all.push_back({before + names_of[k] + after, of, static_cast<Index>(k)});
+  };
+  add("", known.coordinates, "''", Watched::Of::acceleration);
+  add("lambda[", known.constraints, "]", Watched::Of::multiplier);
+  if (names.empty()) return all;
+  add("reaction[", known.coordinates, "]", Watched::Of::reaction);
+  all.push_back({"gauss", Watched::Of::gauss, 0});
+  if (known.is_mechanism) {
+    add("", known.coordinates, "", Watched::Of::position);
+    add("", known.coordinates, "'", Watched::Of::velocity);
+    add("f[", known.constraints, "]", Watched::Of::f);
+    add("df[", known.constraints, "]", Watched::Of::df);
   }
+  add("ddf[", known.constraints, "]", Watched::Of::ddf);
   for (const std::string& name : names) {
-    std::optional<Index> place;
-    if (name == "gauss") {
-      found.push_back({name, Watched::Of::gauss, 0});
-      continue;
-    }
-    Watched::Of of = Watched::Of::acceleration;
-    if (const auto constraint = within(name, "lambda[")) {
-      of = Watched::Of::multiplier;
-      place = place_of(known.constraints, *constraint);
-    } else if (const auto coordinate = within(name, "reaction[")) {
-      of = Watched::Of::reaction;
-      place = place_of(known.coordinates, *coordinate);
-    } else if (name.size() > 2 && name.compare(name.size() - 2, 2, "''") == 0) {
-      place = place_of(known.coordinates, name.substr(0, name.size() - 2));
-    }
-    if (!place) {
-      std::vector<std::string> numbers{"gauss"};
-      for (const std::string& coordinate : known.coordinates) {
-        numbers.push_back(coordinate + "''");
-        numbers.push_back("reaction[" + coordinate + "]");
-      }
-      for (const std::string& constraint : known.constraints) numbers.push_back("lambda[" + constraint + "]");
+    const auto known_one =
+        std::find_if(all.begin(), all.end(), [&](const Watched& one) { return one.name == name; });
+    if (known_one == all.end()) {
+      std::vector<std::string> numbers;
+      for (const Watched& one : all) numbers.push_back(one.name);
       throw InvalidInput("--watch " + shown(name) + ": there is no such number; " +
                          convex::suggestion(name, numbers));
     }
-    found.push_back({name, of, *place});
+    found.push_back(*known_one);
   }
   return found;
 }
@@ -149,7 +157,8 @@ SweepScene::Names SweepScene::names(const std::vector<double>& at) {
   const Problem problem = read_problem(document_, directory_of(file_));
   Names found;
   if (const auto* text = std::get_if<SystemProblem>(&problem.content)) {
-    const auto system = mechanics::lagrangian_system(text->system);
+    const auto system = mechanics::lagrangian_system(text->system, text->state);
+    found.is_mechanism = true;
     found.coordinates = system->coordinates();
     for (const mechanics::Constraint& constraint : system->constraints())
       found.constraints.push_back(constraint.name);
@@ -185,22 +194,7 @@ SweepPoint SweepScene::solve(const std::vector<double>& at, const std::vector<Wa
       if (solved.states[a] == ConstraintState::persists || solved.states[a] == ConstraintState::touches)
         point.active.push_back(static_cast<Index>(a));
     const convex::Vector lambda = scene.over_constraints(solution.multipliers.least_norm);
-    for (std::size_t k = 0; k < watched.size(); ++k) {
-      const Watched& one = watched[k];
-      switch (one.of) {
-        case Watched::Of::acceleration:
-          point.watched[k] = solution.primal.q[one.index];
-          break;
-        case Watched::Of::multiplier:
-          if (!solved.is_weighed(static_cast<std::size_t>(one.index))) point.watched[k] = lambda[one.index];
-          break;
-        case Watched::Of::reaction:
-          point.watched[k] = solution.reaction[one.index];
-          break;
-        case Watched::Of::gauss:
-          point.watched[k] = solution.gauss;
-      }
-    }
+    for (std::size_t k = 0; k < watched.size(); ++k) point.watched[k] = number_of(watched[k], solved, lambda);
   } catch (const InvalidInput& error) {
     point.status = "error";
     point.exit = Exit::wrong_input;

@@ -24,9 +24,10 @@ struct SweepPoint {
   bool has_answer() const { return status == "solved" || status == "inaccurate"; }
 };
 
-/// What is watched of an answer: "x''", "lambda[floor]", "reaction[x]", "gauss".
+/// What is watched of an answer: "x''", "lambda[floor]", "reaction[x]", "gauss", the state, "x" and "x'", and
+/// how far a constraint is from closing, "f[floor]", "df[floor]", "ddf[floor]".
 struct Watched {
-  enum class Of { acceleration, multiplier, reaction, gauss };
+  enum class Of { acceleration, multiplier, reaction, gauss, position, velocity, f, df, ddf };
   std::string name;
   Of of = Of::gauss;
   convex::Index index = 0;
@@ -56,6 +57,7 @@ class SweepScene {
  private:
   struct Names {
     std::vector<std::string> coordinates, constraints;
+    bool is_mechanism = false;
   };
   Names names(const std::vector<double>& at);
   Scene scene(const std::vector<double>& at);

@@ -222,3 +222,13 @@ TEST_CASE("the largest regions of an atlas have fills and names of their own, an
   CHECK(named.size() >= 26);
   CHECK(times(svg_texts(svg), "14 smaller regions") == 1);
 }
+
+TEST_CASE("a sweep over two ranges draws the one number that is watched") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string file = folder.write("a.toml", point_on_floor({{1, "title = \"A point\"\n[system]"}}));
+  const std::string svg = drawn({"sweep", file, "--over", "m=1:0.5:4", "--over", "g=-3:1:9", "--watch",
+                                 "lambda[floor]", "--output", folder.path("a.csv")},
+                                folder.path("a.svg"));
+  CHECK(times(svg_texts(svg), "A point: lambda[floor]; lines: the contacts change") == 1);
+}

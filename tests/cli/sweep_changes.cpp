@@ -138,3 +138,18 @@ TEST_CASE("a sweep tells which point is the first without an answer, and why tha
   const std::string two = run({"sweep", jam, "--over", "t=0,0.1"}).err;
   CHECK(two.find("2 points have no answer, the first at t = 0: infeasible") != std::string::npos);
 }
+
+TEST_CASE("the gap of a contact, its rates and the state are watched beside its multiplier") {
+  const Folder folder;
+  const std::string file = folder.write("a.toml", masses("x = \"P\"\n", "x = 0, y = 2"));
+  std::vector<std::string> words{"sweep", "--json", file, "--over", "P=-3,2"};
+  for (const char* name : {"lambda[a]", "ddf[a]", "f[b]", "df[b]", "y", "y'"}) {
+    words.emplace_back("--watch");
+    words.emplace_back(name);
+  }
+  const Json table = Json::parse(run(words).out).at("table");
+  REQUIRE(table.size() == 2);
+  const std::vector<std::vector<double>> expected{{3, 0, 2, 0, 2, 0}, {0, 2, 2, 0, 2, 0}};
+  for (std::size_t row = 0; row < 2; ++row)
+    for (std::size_t k = 0; k < 6; ++k) CHECK(table[row].at(words[6 + 2 * k]) == expected[row][k]);
+}
