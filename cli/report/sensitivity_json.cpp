@@ -13,10 +13,14 @@ using convex::Vector;
 /// Derivatives by single forces and bounds are many numbers; beyond so many they are left out.
 constexpr Index most_listed = 200;
 
+std::optional<convex::Derivative> derivative_by(const SolvedScene& solved, const Vector& dz,
+                                                const Vector& ds) {
+  return convex::directional_derivative(solved.scene.problem, solved.solution.primal,
+                                        solved.solution.multipliers, dz, ds, solved.solution.touching);
+}
+
 void write_derivative(JsonWriter& json, const SolvedScene& solved, const Vector& dz, const Vector& ds) {
-  const auto derivative =
-      convex::directional_derivative(solved.scene.problem, solved.solution.primal,
-                                     solved.solution.multipliers, dz, ds, solved.solution.touching);
+  const auto derivative = derivative_by(solved, dz, ds);
   if (!derivative) {
     json.null();
     return;
@@ -38,6 +42,29 @@ void write_both_ways(JsonWriter& json, const Direction& write) {
   write(1.0);
   json.key("less");
   write(-1.0);
+  json.end_object();
+}
+
+void write_reach(JsonWriter& json, const SolvedScene& solved) {
+  const Scene& scene = solved.scene;
+  const Index n = scene.problem.dimension();
+  json.begin_object();
+  for (Index i = 0; i < n; ++i) {
+    json.key(scene.coordinates[static_cast<std::size_t>(i)]);
+    write_both_ways(json, [&](double sign) {
+      const Vector dz = sign * Vector::Unit(n, i);
+      const auto derivative = derivative_by(solved, dz, Vector::Zero(scene.problem.rows()));
+      const auto first = derivative ? convex::first_change(scene.problem, solved.solution.primal,
+                                                           solved.solution.multipliers, dz, *derivative)
+                                    : std::nullopt;
+      if (!first) {
+        json.null();
+        return;
+      }
+      json.begin_object().key("by").value(first->by).key("contact").value(scene.contact_name(first->row));
+      json.key("change").value(first->closes ? "closes" : "opens").end_object();
+    });
+  }
   json.end_object();
 }
 
@@ -68,6 +95,11 @@ void write_sensitivity(JsonWriter& json, const SolvedScene& solved) {
   }
   const auto margins = convex::margins(scene.problem, solved.solution.primal, solved.solution.multipliers,
                                        solved.solution.touching);
+  json.key("reach");
+  if (!margins || n > most_listed)
+    json.null();
+  else
+    write_reach(json, solved);
   json.key("margins");
   if (!margins) {
     json.null().key("next").null().end_object();

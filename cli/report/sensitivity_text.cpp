@@ -59,17 +59,18 @@ class DerivativeTable {
     return names;
   }
 
-  /// What cancels to rounding is 0: an acceleration of what the force and the contacts make of it, a
-  /// multiplier beside the others, in the norm of A⁻¹.
+  /// What cancels to rounding is 0: an acceleration of what the force and the contacts make of it or beside
+  /// the others, a multiplier beside the force and the others, in the norm of A⁻¹.
   void add_row(const std::string& what, const Vector& dz, const std::optional<convex::Derivative>& by) {
     std::vector<std::string> row{what};
     const convex::NearestPointProblem& problem = solved_.scene.problem;
     const Index n = problem.dimension(), m = problem.rows();
     const bool has_multipliers = by && by->multipliers;
     Vector terms = problem.A.solve(dz).cwiseAbs();
-    for (Index i = 0; by && !has_multipliers && i < n; ++i)
-      terms[i] = problem.A.norm(by->acceleration) * problem.A.dual_norm(Vector::Unit(n, i));
-    double largest = 0;
+    for (Index i = 0; by && i < n; ++i)
+      terms[i] =
+          std::max(terms[i], problem.A.norm(by->acceleration) * problem.A.dual_norm(Vector::Unit(n, i)));
+    double largest = problem.A.dual_norm(dz);
     for (Index a = 0; has_multipliers && a < m; ++a) {
       const Vector u = problem.U.row(a);
       const double change = std::abs((*by->multipliers)[a]);
@@ -104,6 +105,32 @@ std::string derivatives_text(const SolvedScene& solved) {
   return "What changes, and by how much, until a contact opens or closes:\n" + table.text();
 }
 
+/// How much of each force alone, in its own unit, opens or closes the first contact.
+std::string reaches_text(const SolvedScene& solved) {
+  const Scene& scene = solved.scene;
+  const Index n = scene.problem.dimension();
+  if (!solved.solution.multipliers.unique || n > most_directions) return "";
+  TextTable table({"force on", "more by", "then", "less by", "then"});
+  bool is_any = false;
+  for (Index i = 0; i < n; ++i) {
+    std::vector<std::string> row{scene.coordinates[static_cast<std::size_t>(i)]};
+    for (const double way : {1.0, -1.0}) {
+      const Vector dz = way * Vector::Unit(n, i);
+      const auto by = derivative(solved, dz, Vector::Zero(scene.problem.rows()));
+      const auto first = by ? convex::first_change(scene.problem, solved.solution.primal,
+                                                   solved.solution.multipliers, dz, *by)
+                            : std::nullopt;
+      is_any = is_any || first;
+      row.push_back(first ? number_text(first->by) : by ? "never" : "-");
+      row.push_back(first ? scene.contact_name(first->row) + (first->closes ? " closes" : " opens") : "");
+    }
+    table.add(std::move(row));
+  }
+  return is_any
+             ? "How much one force alone may change until a contact opens or closes:\n" + table.text() + "\n"
+             : "";
+}
+
 std::string margins_text(const SolvedScene& solved) {
   const auto margins = convex::margins(solved.scene.problem, solved.solution.primal,
                                        solved.solution.multipliers, solved.solution.touching);
@@ -129,7 +156,7 @@ std::string margins_text(const SolvedScene& solved) {
 
 std::string sensitivity_text(const SolvedScene& solved) {
   if (!solved.sensitivity) return "";
-  return "\n" + derivatives_text(solved) + "\n" + margins_text(solved);
+  return "\n" + derivatives_text(solved) + "\n" + reaches_text(solved) + margins_text(solved);
 }
 
 }  // namespace cli::inline reports

@@ -209,3 +209,32 @@ in_contact = []
   for (const char* row : {"a       -0.02    0     0", "x     0.29997    0     0"})
     CHECK(table.find(row) != std::string::npos);
 }
+
+TEST_CASE("how far one force alone may change is where the contacts of an answer are others") {
+  const Folder folder;
+  const auto text = [](double first, double second) {
+    return "[projection]\nA = [[2, 1], [1, 3]]\nz = [" + std::to_string(first) + ", " +
+           std::to_string(second) + "]\nU = [[1, 0], [1, 1], [-1, 2]]\ns = [0, -1, -3]\n";
+  };
+  const double z[2] = {-2, 1};
+  const auto active = [&](int i, double by) {
+    const Outcome outcome = run_json_on("solve", text(z[0] + (i == 0 ? by : 0), z[1] + (i == 1 ? by : 0)));
+    return Json::parse(outcome.out).at("active");
+  };
+  const std::string file = folder.write("a.toml", text(z[0], z[1]));
+  const Json reach =
+      Json::parse(run({"solve", "--json", "--sensitivity", file}).out).at("sensitivity").at("reach");
+  int found = 0;
+  for (int i = 0; i < 2; ++i)
+    for (const char* way : {"more", "less"}) {
+      const Json& first = reach.at("q[" + std::to_string(i) + "]").at(way);
+      if (first.is_null()) continue;
+      ++found;
+      const double by = first.at("by").get<double>() * (std::string(way) == "more" ? 1 : -1);
+      CHECK(active(i, 0.999 * by) == active(i, 0));
+      CHECK(active(i, 1.001 * by) != active(i, 0));
+    }
+  CHECK(found >= 2);
+  CHECK(run({"solve", "--sensitivity", file}).out.find("How much one force alone may change") !=
+        std::string::npos);
+}

@@ -153,4 +153,27 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
   return found;
 }
 
+std::optional<FirstChange> first_change(const NearestPointProblem& problem, const Solution& solution,
+                                        const Multipliers& multipliers, const Vector& dz,
+                                        const Derivative& by) {
+  if (!by.multipliers) return std::nullopt;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),
+                          is_tight = marked(problem.rows(), multipliers.tight);
+  const double push = problem.A.dual_norm(dz);
+  std::optional<FirstChange> first;
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (two_sided[at(a)]) continue;
+    const Vector u = problem.U.row(a);
+    const double length = problem.A.dual_norm(u);
+    const bool closes = !is_tight[at(a)];
+    const double rate = closes ? u.dot(by.acceleration) : (*by.multipliers)[a],
+                 unit = closes ? length : 1 / length,
+                 left = closes ? solution.slack[a] : multipliers.least_norm[a];
+    if (!(-rate > noise * unit * push)) continue;  // what is no more than rounding changes nothing
+    const double reach = std::max(0.0, left) / -rate;
+    if (!first || reach < first->by) first = FirstChange{reach, a, closes};
+  }
+  return first;
+}
+
 }  // namespace convex::inline multiplier_sets

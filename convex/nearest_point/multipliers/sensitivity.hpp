@@ -32,4 +32,15 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem&, con
 std::optional<Vector> margins(const NearestPointProblem&, const Solution&, const Multipliers&,
                               const std::vector<Index>& weak = {});
 
+/// The first row that opens or closes as z moves along dz, and how far that is.
+struct FirstChange {
+  double by = 0;
+  Index row = 0;
+  bool closes = false;
+};
+
+/// Along a derivative by dz alone. None when no row ever does, or multipliers are not unique.
+std::optional<FirstChange> first_change(const NearestPointProblem&, const Solution&, const Multipliers&,
+                                        const Vector& dz, const Derivative& by);
+
 }  // namespace convex::inline multiplier_sets
