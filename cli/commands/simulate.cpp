@@ -19,6 +19,7 @@
 #include "cli/resumed_state.hpp"
 #include "cli/scene.hpp"
 #include "convex/nearest_name.hpp"
+#include "mechanics/angles_in_degrees.hpp"
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/motion/motion.hpp"
 
@@ -180,7 +181,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau simulate` takes a file with [system]");
   const auto start = std::chrono::steady_clock::now();
-  const auto system = mechanics::lagrangian_system(text->system);
+  const auto system = mechanics::lagrangian_system(text->system, text->state);
   const mechanics::State state =
       options.resume ? resumed_state(*options.resume, *system) : system->state(text->state);
   const double until = end_of_motion(problem, *system, options.until);
@@ -235,6 +236,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
   for (const std::string& said : {followed.choice.empty() ? way.why : "", of_crowd})
     if (!said.empty()) answer.warnings.push_back(said);
+  for (std::string& said : mechanics::angles_in_degrees(*system)) answer.warnings.push_back(std::move(said));
   return answer;
 }
 

@@ -224,10 +224,10 @@ std::string motion_text(const FollowedMotion& followed) {
   text += end.text();
   if (coordinates > shown_rows)
     text += fmt::format("  … {} more coordinates; --json has them all\n", coordinates - shown_rows);
-  text += fmt::format("\nSteps: {}. Events: {}, impacts among them: {}. T + V = {}.\n", record.steps,
-                      record.events, record.impacts, number_text(motion.energy()));
-  if (!followed.choice.empty()) text += "Method " + followed.choice + ".\n";
   const double size = record.first_impact ? record.first_impact->kinetic : 0;
+  text += fmt::format("\nSteps: {}. Events: {}, impacts among them: {}. T + V = {}.\n", record.steps,
+                      record.events, record.impacts, number_text(without_rounding(motion.energy(), size)));
+  if (!followed.choice.empty()) text += "Method " + followed.choice + ".\n";
   if (record.impacts > 0)
     text += fmt::format("Impacts changed T by {}; the ledger of impulses says {}.\n",
                         number_text(without_rounding(record.impact_energy, size)),

@@ -100,3 +100,14 @@ TEST_CASE("a number is no rounding of others that nothing couples to it") {
   CHECK(text.find("0.333333") != std::string::npos);
   CHECK(text.find("1.33333") != std::string::npos);
 }
+
+TEST_CASE("a plain number beyond a turn in a sine is told as radians, and one that is computed is not") {
+  const auto sliding = [](const std::string& angle) {
+    return point_on_floor({{4, "potential = \"m*g*y + sin(a)*x\""}, {6, "m = 2.0\na = " + angle}});
+  };
+  CHECK(run_on("solve", sliding("30")).err.find("the angle \"a\" = 30 counts in radians; ") !=
+        std::string::npos);
+  CHECK(run_on("solve", sliding("-45")).err.find("radians") != std::string::npos);
+  for (const char* angle : {"\"30*pi/180\"", "6", "0.5", "\"10*pi\""})
+    CHECK(run_on("solve", sliding(angle)).err.empty());
+}
