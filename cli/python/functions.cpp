@@ -152,6 +152,13 @@ void add_operators(py::class_<Expression, Shared>& type) {
           "__radd__", [](const Expression& f, double c) { return shared(raised(f, c)); }, py::is_operator())
       .def(
           "__sub__", [](const Expression& f, double c) { return shared(raised(f, -c)); }, py::is_operator())
+      .def(
+          "__sub__",
+          [](const Expression&, const Expression&) -> double {
+            throw py::type_error(
+                "f - g: a difference of convex functions is not convex in general; f + g is");
+          },
+          py::is_operator())
       .def("__mul__", times, py::is_operator())
       .def("__rmul__", times, py::is_operator())
       .def(

@@ -54,6 +54,10 @@ class Files(unittest.TestCase):
             moreau.solve({"system": BALL["system"] | {"kinetc": "1"}, "state": BALL["state"]})
         self.assertEqual(caught.exception.line, 1)
         self.assertGreater(caught.exception.column, 1)
+        self.assertEqual(caught.exception.others, [])
+        with self.assertRaisesRegex(moreau.InvalidInput, '"yy" is unknown') as caught:
+            moreau.solve({"system": BALL["system"] | {"kinetic": "yy'^2"}, "state": {"position": {"z": "y*"}}})
+        self.assertEqual(["z" in str(other) for other in caught.exception.others], [True])
         with self.assertRaisesRegex(moreau.InvalidInput, "^nowhere.toml: no such file"):
             moreau.solve("nowhere.toml")
         with self.assertRaisesRegex(AttributeError, "a system has no accelerations"):

@@ -43,6 +43,8 @@ class Language(unittest.TestCase):
                                (lambda: prox(norm1(), [1, 2], np.eye(3)), "W: 3 rows")):
             with self.subTest(message), self.assertRaisesRegex(moreau.InvalidInput, message):
                 wrong()
+        with self.assertRaisesRegex(TypeError, "a difference of convex functions"):
+            norm1() - norm1()
         with self.assertRaises(TypeError):
             norm1() * norm1()
 

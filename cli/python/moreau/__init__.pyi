@@ -19,6 +19,7 @@ __version__: str
 class InvalidInput(ValueError):
     line: int | None
     column: int | None
+    others: list[InvalidInput]
 
 class Metric:
     def __init__(self, W: Any) -> None: ...
