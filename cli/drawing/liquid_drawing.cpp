@@ -72,7 +72,7 @@ Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& foun
 
 Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, const std::string& title,
                        bool with_velocity, const std::optional<std::string>& plane) {
-  const SectionAxes axes = plane ? section_axes(scene.coordinates, *plane) : SectionAxes{0, 1, 2};
+  const SectionAxes axes = plane ? section_axes(scene.coordinates, *plane) : most_telling_axes(scene, found);
   if (scene.dimension() == 1) {
     if (with_velocity)
       throw convex::InvalidInput(

@@ -42,6 +42,19 @@ SectionAxes section_axes(const std::vector<std::string>& coordinates, const std:
   return {first, second, 3 - first - second};
 }
 
+SectionAxes most_telling_axes(const LiquidScene& scene, const LiquidSolution& found) {
+  SectionAxes chosen{0, 1, 2};
+  if (scene.dimension() < 3) return chosen;
+  constexpr double clearly = 1.1;
+  double most = clearly * LiquidSection(scene, found, chosen).spread();
+  for (const SectionAxes& axes : {SectionAxes{0, 2, 1}, SectionAxes{1, 2, 0}})
+    if (const double spread = LiquidSection(scene, found, axes).spread(); spread > most) {
+      chosen = axes;
+      most = clearly * spread;
+    }
+  return chosen;
+}
+
 LiquidSection::LiquidSection(const LiquidScene& scene, const LiquidSolution& found, SectionAxes axes)
     : scene_(scene), found_(found), axes_(axes) {
   if (scene.dimension() == 3) height_ = 0.5 * (scene.domain.low[axes[2]] + scene.domain.high[axes[2]]);
@@ -73,6 +86,20 @@ bool LiquidSection::in_cavity(const SectionPoint& x) const { return found_.in_ca
 
 int LiquidSection::count(std::size_t i) const {
   return std::max(1, static_cast<int>(std::lround(side(i) / step_)));
+}
+
+double LiquidSection::spread() const {
+  constexpr int points = 16;
+  double least = found_.largest, most = 0;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) {
+      const SectionPoint x = at(low(0) + side(0) * (i + 0.5) / points, low(1) + side(1) * (j + 0.5) / points);
+      if (!is_inside(x)) continue;
+      const double p = in_cavity(x) ? 0.0 : found_.p(in_space(x));
+      least = std::min(least, p);
+      most = std::max(most, p);
+    }
+  return std::max(0.0, most - least);
 }
 
 std::string LiquidSection::field() const {

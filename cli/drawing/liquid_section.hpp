@@ -16,6 +16,10 @@ using SectionAxes = std::array<std::size_t, 3>;
 /// Reads "x,z", of three dimensions. Throws InvalidInput.
 SectionAxes section_axes(const std::vector<std::string>& coordinates, const std::string& plane);
 
+/// Those of the section in which p differs most; the first two unless another tells more.
+SectionAxes most_telling_axes(const mechanics::liquid::LiquidScene&,
+                              const mechanics::liquid::LiquidSolution&);
+
 /// What is drawn of a liquid in two or three dimensions, as gnuplot's data. Points are of the section: the
 /// two coordinates drawn, then the third.
 class LiquidSection {
@@ -26,6 +30,8 @@ class LiquidSection {
   double side(std::size_t i) const;
   double low(std::size_t i) const;
   double height() const { return height_; }
+  /// The largest p less the least, on a coarse grid.
+  double spread() const;
 
   /// p by lines of equal y apart by empty lines, NaN outside of the domain.
   std::string field() const;

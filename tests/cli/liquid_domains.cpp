@@ -38,7 +38,9 @@ TEST_CASE(
   CHECK(right - left < 2);
 }
 
-TEST_CASE("a picture of three dimensions shows the plane that is asked for, and names what is not drawn") {
+TEST_CASE(
+    "a picture of three dimensions shows the plane that is asked for, or that in which p differs, and names "
+    "what is not drawn") {
   // Hydrostatic: p = 1 + 10 (1 - z), the same for all x and y.
   const Folder folder;
   const std::string file = folder.write("box.toml",
@@ -49,11 +51,15 @@ TEST_CASE("a picture of three dimensions shows the plane that is asked for, and 
                                         "where = \"true\", acceleration = 0 } }\n");
   const std::string picture = folder.path("p.svg");
   const auto drawn = [&](const std::string& plane) {
-    const Outcome outcome = run({"solve", "--plot", picture, "--plane", plane, file});
+    std::vector<std::string> words{"solve", "--plot", picture, file};
+    if (!plane.empty()) words.insert(words.end(), {"--plane", plane});
+    const Outcome outcome = run(words);
     CHECK(outcome.code == 0);
     std::ifstream stream(picture);
     return std::string(std::istreambuf_iterator<char>(stream), {});
   };
+  CHECK(drawn("").find("section y = 1.5") != std::string::npos);
+  CHECK(drawn("x,y").find("section z = 0.5") != std::string::npos);
   CHECK(drawn("x,z").find("section y = 1.5") != std::string::npos);
   CHECK(drawn("y,z").find("section x = 1") != std::string::npos);
   const Outcome wrong = run({"solve", "--plot", picture, "--plane", "x,w", file});
