@@ -306,6 +306,11 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
     if (state.q != unprojected.q || state.v != unprojected.v) expansion_.expand({persist_, {}});
   }
   fill_next();
+  if (leads_from_pole())
+    return stop(
+        "at t = " + number_text(state.t) +
+        ": a force has a pole there; what it does to the velocity has no bound, or hangs on digits that "
+        "t does not have");
   since_event_ = 0;
   bool changed = false;
   for (const Index which : switches) {

@@ -191,11 +191,15 @@ void Motion::EventDriven::follow_jumps(std::vector<Index>& at_zero, const std::v
     expansion_.set(state);
     expansion_.take_bases_for_zero();
   };
+  // Past a pole the text alone tells the sides, whatever rounding makes of numbers so large.
+  const bool is_jump =
+      std::any_of(arguments_.begin(), arguments_.end(), [](const Argument& one) { return one.jumps; });
   set();
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     if (is_among(at_zero, static_cast<Index>(k))) continue;
     const double argument = expansion_.switch_argument(k)[0], rounding = expansion_.rounding_of_argument(k);
-    const bool is_at_zero = std::abs(argument) <= rounding,
+    const bool is_large = is_jump && rounding > half_the_digits * arguments_[k].terms_behind,
+               is_at_zero = std::abs(argument) <= rounding && !(is_large && argument != 0),
                was_off = !(std::abs(before[k]) <= jumped * rounding);
     const double branch = !is_at_zero ? std::copysign(1.0, argument) : was_off ? 0 : expansion_.branch(k);
     // Where rounding is more than half the digits of what it was on the arc, as near a pole, it is no sign of

@@ -12,6 +12,9 @@ namespace {
 /// A contact is through when f is below 0 by more than so many roundings of its summands.
 constexpr double roundings_of_passing = 1e3;
 
+/// And jumps when it is off its series by more than so many of those that t has, too.
+constexpr double roundings_of_jump = 64;
+
 /// A number above 0 that a series tells to this part comes to 0 where the series does.
 constexpr double part_told = 0.1;
 
@@ -57,7 +60,9 @@ bool Motion::EventDriven::is_passed(double at) {
     const bool is_told = tells(value_at(c, at), there, least + half_the_digits * sum_of_terms(c, at));
     if (is_told && !(beyond > least)) continue;
     // f may have constants whose rounding is more than what it is now.
-    const double rounding = roundings_of_passing * epsilon * system.constraint_rates(there_).f_scale[a];
+    const double rounding =
+        std::max(roundings_of_passing * epsilon * system.constraint_rates(there_).f_scale[a],
+                 roundings_of_jump * rounding_of_f(a));
     if (beyond > std::max(least, rounding) || (!is_told && std::abs(there - value_at(c, at)) > rounding)) {
       obstacle_ = constraint_name(a) + (beyond > 0 ? " is passed, and its series does not tell when"
                                                    : " jumps, or its series does not tell where it is");
@@ -65,6 +70,22 @@ bool Motion::EventDriven::is_passed(double at) {
     }
   }
   return false;
+}
+
+/// Whether an argument has jumped and a force is so large beyond that the velocity hangs on the rounding of
+/// the time: it is far larger than where the motion soon leads.
+bool Motion::EventDriven::leads_from_pole() {
+  if (std::none_of(arguments_.begin(), arguments_.end(), [](const Argument& one) { return one.jumps; }))
+    return false;
+  constexpr double soon = 1e-3;
+  const double ahead = soon * clock();
+  const State beside{state.t + ahead, state.q + ahead * state.v, state.v};
+  const auto answer = acceleration_off_zero(beside, {});
+  const double usual = answer ? expansion_.norm(answer->x) : 0;
+  expansion_.set(state);
+  const double largest =
+      std::max(expansion_.norm(acceleration), expansion_.norm(done.acceleration(done.length)));
+  return largest * rounding_of_time(0) > half_the_digits * (expansion_.norm(state.v) + usual * clock());
 }
 
 /// How far an argument is before its zero at the end of a step, or past it, < 0, by the text: 0 where

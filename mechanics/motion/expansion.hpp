@@ -207,6 +207,7 @@ class Expansion {
     double along(const Vector& u) const { return u.cwiseAbs().dot(velocity); }
   };
   Magnitudes magnitudes(const std::vector<Index>& constraints, int k);
+  double next_coefficient(expression::Slot coordinate, int k) const;
   Magnitudes magnitudes_of_order(const std::vector<Index>& constraints, int k);
   /// What rounding makes of a coefficient of order k, as a part of its magnitude.
   double rounding(int k) const;

@@ -33,6 +33,12 @@ constexpr double roundings_of_coefficients = 1 << 10;
 
 }  // namespace
 
+/// Coefficient k of a coordinate, while order k of the series is looked for and after it.
+double Expansion::next_coefficient(Slot coordinate, int k) const {
+  const double known = series_[coordinate][index(k)];
+  return known != 0 ? known : series_.at_order(coordinate);
+}
+
 Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraints, int k) {
   const expression::Program& program = equations_.program;
   const auto n = program.coordinates();
@@ -46,6 +52,8 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
       unit_norms_ = inertia().diagonal().cwiseSqrt().cwiseInverse();
     }
   } else {
+    for (std::size_t i = 0; i < n; ++i)
+      magnitude_.value(program.velocity(i), k) = (k + 1) * next_coefficient(program.coordinate(i), k + 1);
     for (const std::size_t group : {std::size_t{0}, std::size_t{1}}) magnitude_.find(group, k);
   }
   Vector S = Vector::Zero(coordinates());
@@ -56,8 +64,12 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
         S[i] += std::abs(multiplier(a)[static_cast<std::size_t>(j)]) * magnitude_.at(slot, k - j);
   for (std::size_t i = 0; i < n; ++i)
     magnitude_.at(program.coordinate(i), k + 1) = magnitude_.at(program.velocity(i), k) / (k + 1);
-  for (std::size_t i = 0; i < n; ++i) magnitude_.at(program.velocity(i), k + 1) = 0;  // not yet
-  magnitude_.at(program.time(), k + 1) = k == 0 ? 1 : 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    magnitude_.value(program.coordinate(i), k + 1) =
+        k == 0 ? series_[program.velocity(i)][0] : next_coefficient(program.coordinate(i), k + 1);
+    magnitude_.at(program.velocity(i), k + 1) = magnitude_.value(program.velocity(i), k + 1) = 0;  // not yet
+  }
+  magnitude_.at(program.time(), k + 1) = magnitude_.value(program.time(), k + 1) = k == 0 ? 1 : 0;
   magnitude_.find(0, k + 1);
   for (Index i = 0; i < coordinates(); ++i)
     S[i] = S[i] / (k + 1) + magnitude_.at(equations_.momentum[index(i)], k + 1);

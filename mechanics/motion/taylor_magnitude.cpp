@@ -23,6 +23,7 @@ double of_product(double a, double of_a, double b, double of_b) {
 TaylorMagnitude::TaylorMagnitude(const TaylorSeries& series)
     : of_(series),
       m_(series.rows_.series * width()),
+      c_(m_.size()),
       reach_(series.steps_->variables),
       slopes_(series.rows_.terms.size()) {}
 
@@ -120,23 +121,25 @@ void TaylorMagnitude::amplify(const TaylorStep& step, std::uint32_t row) {
   }
 }
 
-/// |c_k| of a series, no more than what it is the sum of where it is not known yet.
+/// |c_k| of a series, no more than what it is the sum of where that is not known.
 double TaylorMagnitude::size(Slot series, int k) {
-  const std::span<const double> c = of_[series];
-  const auto order = static_cast<std::size_t>(k);
-  return order < c.size() ? std::min(at(series, k), std::abs(c[order])) : 0;
+  return std::min(at(series, k), std::abs(k == 0 ? of_[series][0] : value(series, k)));
 }
 
-/// Σ |s| |R_k| over the products of a row.
-double TaylorMagnitude::rest(const TaylorRows::Row& row, int k) {
-  double sum = 0;
+/// Of the products of a row, s R_k, and of Σ |s| |R_k|.
+TaylorMagnitude::Rest TaylorMagnitude::rest(const TaylorRows::Row& row, int k) {
+  Rest sum;
   for (std::uint32_t p = row.first_product; p < row.end_product; ++p) {
     const TaylorRows::Product& product = of_.rows_.products[p];
-    double of_all = 0;
-    for (int j = 1; j < k; ++j)
-      of_all += (product.is_weighted ? j : 1) * of_product(size(product.x, j), at(product.x, j),
-                                                           size(product.y, k - j), at(product.y, k - j));
-    sum += std::abs(product.scale) * of_all / (product.is_weighted ? k : 1);
+    Rest of_all;
+    for (int j = 1; j < k; ++j) {
+      const double weight = product.is_weighted ? static_cast<double>(j) / k : 1;
+      of_all.value += weight * value(product.x, j) * value(product.y, k - j);
+      of_all.magnitude += weight * of_product(size(product.x, j), at(product.x, j), size(product.y, k - j),
+                                              at(product.y, k - j));
+    }
+    sum.value += product.scale * of_all.value;
+    sum.magnitude += std::abs(product.scale) * of_all.magnitude;
   }
   return sum;
 }
@@ -145,13 +148,17 @@ void TaylorMagnitude::find(std::size_t group, int k) {
   const TaylorRows& rows = of_.rows_;
   for (std::size_t r = group == 0 ? 0 : rows.ends[group - 1].rows; r < rows.ends[group].rows; ++r) {
     const TaylorRows::Row& row = rows.rows[r];
-    double sum = std::abs(of_.factor_[r]) * rest(row, k);
+    Rest sum = rest(row, k);
+    sum.value *= of_.factor_[r];
+    sum.magnitude *= std::abs(of_.factor_[r]);
     for (std::uint32_t t = row.first; t < row.end; ++t) {
       const TaylorRows::Term& term = of_.terms_[t];
-      sum += of_product(std::min(slopes_[t], std::abs(term.c)), slopes_[t], size(term.series, k),
-                        at(term.series, k));
+      sum.value += term.c * value(term.series, k);
+      sum.magnitude += of_product(std::min(slopes_[t], std::abs(term.c)), slopes_[t], size(term.series, k),
+                                  at(term.series, k));
     }
-    at(row.out, k) = sum;
+    value(row.out, k) = sum.value;
+    at(row.out, k) = sum.magnitude;
   }
 }
 

@@ -25,16 +25,22 @@ class TaylorMagnitude {
   /// Order k of the series of a group, from those of the variables and from lower orders.
   void find(std::size_t group, int k);
   double& at(Slot series, int k) { return m_[series * width() + static_cast<std::size_t>(k)]; }
+  /// Coefficient k >= 1 itself, to be given of the variables.
+  double& value(Slot series, int k) { return c_[series * width() + static_cast<std::size_t>(k)]; }
 
  private:
   std::size_t width() const { return static_cast<std::size_t>(of_.order_) + 1; }
   void begin_step(const TaylorStep& step, std::uint32_t row);
   void amplify(const TaylorStep& step, std::uint32_t row);
   double size(Slot series, int k);
-  double rest(const TaylorRows::Row& row, int k);
+  struct Rest {
+    double value = 0, magnitude = 0;
+  };
+  Rest rest(const TaylorRows::Row& row, int k);
 
   const TaylorSeries& of_;
   std::vector<double> m_;       // by series and order
+  std::vector<double> c_;       // likewise, the coefficients above 0
   std::vector<double> reach_;   // by variable
   std::vector<double> slopes_;  // what stands for |c| in each term of the rows
 };

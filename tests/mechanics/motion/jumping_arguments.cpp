@@ -171,3 +171,33 @@ TEST_CASE("a pulse pushes a body at rest from the edge of its stop, however slow
     CHECK(told.end().v[0] == doctest::Approx(stop.v).epsilon(1e-6));
   }
 }
+
+TEST_CASE("a force with a pole between two branches ends the motion, one that is cut off there does not") {
+  for (const char* force :
+       {"max(0, 1/(t - 0.3))", "max(-1, 1/(t - 0.3))", "abs(tan(t))", "max(0, tan(t + 1))"}) {
+    CAPTURE(force);
+    CHECK(pushed(force).motion.status() == MotionStatus::stopped);
+  }
+  // x'' = -5 x s(t) with s cut off at ±1; by DOP853 between the times at which tan(3 t) is ±1 or has its
+  // pole.
+  const Followed told = pushed("-5*x*max(-1, min(1, tan(3*t)))");
+  CHECK(told.motion.status() == MotionStatus::done);
+  CHECK(told.end().q[0] == doctest::Approx(-1.65801056).epsilon(1e-8));
+  CHECK(told.end().v[0] == doctest::Approx(0.20565817).epsilon(1e-7));
+  for (std::size_t k = 1; k < told.events.size(); ++k)
+    if (told.events[k].t == told.events[k - 1].t)
+      CHECK(told.events[k].velocity_before == told.events[k - 1].velocity_after);
+}
+
+TEST_CASE("a ball bounces on a floor that moves with a late time as with an early one") {
+  const auto bounced = [](double start) {
+    const std::string t = "(t - " + mechanics::number_text(start) + ")";
+    const SystemText text{
+        {"x"}, "x'^2/2", "", {}, {}, {{"x", "-9.81"}}, {{"floor", "x >= 0.05*sin(8*" + t + ")"}}};
+    return followed(text, {start, mechanics::Vector{{0.3}}, mechanics::Vector{{0}}}, start + 2,
+                    restitution(text, 0.5));
+  };
+  const Followed soon = bounced(0), late = bounced(1e6);
+  CHECK(late.motion.status() == MotionStatus::done);
+  CHECK(late.end().q[0] == doctest::Approx(soon.end().q[0]).epsilon(1e-7));
+}
