@@ -250,6 +250,11 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
       if (solution.farkas[static_cast<Index>(a)] != 0) answer.excluding.push_back(rows[a]);
     return Vector::Zero(coordinates());
   }
+  if (solution.lambda.size() == 0)
+    throw convex::InvalidInput(
+        "whether the contacts contradict each other hangs on less than rounding tells; leave out the one "
+        "that "
+        "the others imply");
   give_multipliers(k, rows, solution.lambda * (k + 1));
   const Magnitudes of = magnitudes_of_order(rows, k);
   const double part = rounding(k);

@@ -115,3 +115,19 @@ TEST_CASE("an impact right at the end, before it or after it by a rounding, is n
     CHECK(found->part == 0);
   }
 }
+
+TEST_CASE("contacts that are one at the start, and part by a rounding of it, are followed") {
+  // y >= 0 is all that the dome under it leaves; off x = 0 by a rounding they contradict each other by less.
+  const SystemText text{{"x", "y"},
+                        "(x'^2 + y'^2)/2",
+                        "",
+                        {},
+                        {},
+                        {{"x", "1"}, {"y", "-9.81"}},
+                        {{"floor", "y >= 0"}, {"dome", "y >= -x^2"}}};
+  const State start = state({0, 0}, {0, 0});
+  const Followed found = followed(text, start, 20);
+  CHECK(found.end().q[0] == doctest::Approx(200));
+  CHECK(std::abs(found.end().q[1]) < 1e-12);
+  CHECK_NOTHROW(rounding_growth(*found.system, start, {}, found.motion, 64));
+}
