@@ -247,8 +247,7 @@ void Motion::EventDriven::take_step(double until) {
   across_.clear();
   for (int halvings = 0;; ++halvings) {
     if (halvings > most_halvings || (halvings > 0 && !(clock() + end > clock()))) {
-      for (const Index k : across_) zeros.push_back({Zero::Of::branch, k, tau, false, false, true});
-      if (!across_.empty()) break;
+      if (is_jump(tau, zeros)) break;
       return stop("at t = " + number_text(state.t) + ": " +
                   (obstacle_.empty() ? "no step, however short, keeps the tolerance" : obstacle_) +
                   "; the motion ends here, or the expressions have to be written otherwise");

@@ -97,6 +97,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool has_left_its_branch(std::size_t k, double tau);
   void note_across(double tau);
   double distance_of_zero(const Zero& zero, double tau);
+  bool is_jump(double tau, std::vector<Zero>& zeros);
   bool leads_from_pole();
   double terms_of_argument(std::size_t k, double tau) const;
   double rate_of_argument(std::size_t k, double tau) const;

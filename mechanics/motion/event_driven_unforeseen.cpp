@@ -72,6 +72,15 @@ bool Motion::EventDriven::is_passed(double at) {
   return false;
 }
 
+/// Whether arguments have jumped in a step of less than the time tells, in which nothing else goes on: not
+/// where the motion comes to infinity.
+bool Motion::EventDriven::is_jump(double tau, std::vector<Zero>& zeros) {
+  if (across_.empty() || !(largest_term(sizes_, tau) <= 2 * (sizes_[1] + sizes_[2] * tau) * tau))
+    return false;
+  for (const Index k : across_) zeros.push_back({Zero::Of::branch, k, tau, false, false, true});
+  return true;
+}
+
 /// Whether an argument has jumped and a force is so large beyond that the velocity hangs on the rounding of
 /// the time: it is far larger than where the motion soon leads.
 bool Motion::EventDriven::leads_from_pole() {

@@ -201,3 +201,11 @@ TEST_CASE("a ball bounces on a floor that moves with a late time as with an earl
   CHECK(late.motion.status() == MotionStatus::done);
   CHECK(late.end().q[0] == doctest::Approx(soon.end().q[0]).epsilon(1e-7));
 }
+
+TEST_CASE("a motion that comes to infinity is told as it was there, and not beyond a jump") {
+  const Followed told =
+      followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "-x - 20*max(0, (x*x')^3)"}}, {}}, state({1}, {-1}), 2);
+  CHECK(told.motion.status() == MotionStatus::stopped);
+  CHECK(std::abs(told.end().q[0]) < 1);
+  CHECK(told.end().v[0] < -1e3);
+}
