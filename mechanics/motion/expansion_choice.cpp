@@ -252,9 +252,7 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
   }
   if (solution.lambda.size() == 0)
     throw convex::InvalidInput(
-        "whether the contacts contradict each other hangs on less than rounding tells; leave out the one "
-        "that "
-        "the others imply");
+        "whether contacts contradict each other hangs on their rounding; leave out those that others imply");
   give_multipliers(k, rows, solution.lambda * (k + 1));
   const Magnitudes of = magnitudes_of_order(rows, k);
   const double part = rounding(k);
