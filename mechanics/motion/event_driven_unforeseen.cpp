@@ -37,6 +37,7 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   if (!(digits > 0)) return false;
   const Watched& one = watched_[watched_.size() - expansion_.switches() + k];
   const double told = std::pow(tau, one.zeros) * value_at(one.c, tau);
+  // The rounding of the argument takes a look at all series: it is asked for only where it may matter.
   return !tells(told, there, digits) && !tells(told, there, digits + expansion_.rounding_of_argument(k));
 }
 
