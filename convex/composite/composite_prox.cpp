@@ -165,7 +165,7 @@ Prox prox(const GraphForm& given, const Vector& z, const Metric& W, const Look& 
     found.error_bound = infinity;
     return found;
   }
-  const SaddleError error = saddle_error(problem, point);
+  const SaddleError error = saddle_error(problem, point, ErrorOf::answer);
   // Where the own formulas feel the rounding of u less than D(t - u) does, v is theirs.
   constexpr double worse = 2;
   const double of_own = W.dual_norm(metric_difference(W, found.x, z) + found.v);

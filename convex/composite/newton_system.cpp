@@ -12,11 +12,10 @@ constexpr double multiplications_of_an_evaluation = 1000;
 
 /// What the dense factors count as.
 long work_of(const SaddleProblem& problem, Index unknowns) {
-  const auto cube = [](Index size) { return std::pow(static_cast<double>(size), 3); };
-  double sum = cube(unknowns);
+  long sum = work_of_a_factor(unknowns);
   for (const SaddleTerm& term : problem.terms)
-    if (!term.separable) sum += cube(term.rows);
-  return static_cast<long>(sum / multiplications_of_an_evaluation);
+    if (!term.separable) sum += work_of_a_factor(term.rows);
+  return sum;
 }
 
 /// A matrix that is not definite after its diagonal grew by this part is not so by rounding.
@@ -54,6 +53,10 @@ TermCurvature curvature_of(const SaddleTerm& term, const Vector& t, const Vector
 }
 
 }  // namespace
+
+long work_of_a_factor(Index unknowns) {
+  return static_cast<long>(std::pow(static_cast<double>(unknowns), 3) / multiplications_of_an_evaluation);
+}
 
 NewtonSystem::NewtonSystem(const SaddleProblem& problem, const Vector& t, const Vector& D, double theta,
                            const Vector& ridge)

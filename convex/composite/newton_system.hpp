@@ -22,6 +22,9 @@ struct NewtonStep {
   Vector dxi, dt, dy;
 };
 
+/// What a dense factor of so many unknowns counts as, in evaluations.
+long work_of_a_factor(Index unknowns);
+
 /// The optimality conditions linearised at a t. theta = 1 gives the Hessian of the method of multipliers'
 /// inner problem; theta -> 0 Newton's method on the conditions themselves.
 class NewtonSystem {

@@ -4,6 +4,7 @@
 
 #include "convex/composite/newton_polish.hpp"
 #include "convex/composite/newton_system.hpp"
+#include "convex/composite/sensitivity_system.hpp"
 
 namespace convex::inline composite {
 namespace {
@@ -19,6 +20,9 @@ constexpr double settled = 1e-13;
 /// that of x, at rounding level, where it may be much smaller than monotonicity shows: where the terms' own
 /// curvature, and not W, holds x.
 constexpr double safety = 2, far_safety = 20, own_safety = 4;
+/// What the sensitivities of an answer are regularised with, as parts of D and R: only the rounding of a
+/// Jacobian is below.
+constexpr double answer_theta = 1e-13, answer_ridge = 1e-14;
 
 /// Bounds on the absolute values of what rounding does to a point's parts.
 struct Rounding {
@@ -65,9 +69,51 @@ bool is_rounding(const Vector& left, const Vector& residual, const Vector& round
   return true;
 }
 
+/// How far the solution may be from a point: the largest of the Newton step from there and of those that
+/// rounding could cause, with signs that a pattern does not cancel.
+struct Moves {
+  double dx = 0;       // in ||·||_W
+  Vector dy, dw;       // m, k
+  bool known = false;  // no part of a residual is left that no y and w can mend
+};
+
+template <class System>
+Moves moves_of(const SaddleProblem& problem, const SaddlePoint& point, const Rounding& rounding, double theta,
+               const Vector& ridge) {
+  const System system(problem, point.t, point.D, theta, ridge);
+  Moves moves{0, Vector::Zero(problem.m), Vector::Zero(problem.k), system.usable()};
+  if (!system.usable()) return moves;
+  const double size = problem.n > 0 ? problem.W.norm(point.xi.head(problem.n)) + problem.W.norm(problem.z)
+                                    : solution_size(problem, point);
+  const Vector root_of_D = problem.D.cwiseSqrt(), root_of_R = problem.R.cwiseSqrt().cwiseInverse();
+  for (int probe = 0; probe < 4; ++probe) {
+    const auto sign = [&](Index i) {
+      return std::fmod(0.7548776662466927 * static_cast<double>((probe + 1) * (i + 1)), 1.0) < 0.5 ? -1.0
+                                                                                                   : 1.0;
+    };
+    Vector rho = point.rho, r = point.r;
+    for (Index i = 0; i < rho.size(); ++i) rho[i] += sign(i) * rounding.rho[i];
+    for (Index i = 0; i < r.size(); ++i) r[i] += sign(i + 7) * rounding.r[i];
+    NewtonStep step = system.step(rho, r);
+    // What the step leaves of r and rho no y and w can mend (dependent rows); it says nothing about y - y*.
+    const Vector r_left = theta * step.dy.cwiseQuotient(point.D);
+    const Vector w_left = ridge.cwiseProduct(step.dxi.tail(problem.k));
+    moves.known =
+        moves.known && is_rounding(r_left, point.r, rounding.r, root_of_D, size) &&
+        is_rounding(w_left, point.rho.tail(problem.k), rounding.rho.tail(problem.k), root_of_R, size);
+    r -= r_left;
+    rho.tail(problem.k) += w_left;
+    step = system.step(rho, r);
+    moves.dx = std::max(moves.dx, problem.W.norm(step.dxi.head(problem.n)));
+    moves.dw = moves.dw.cwiseMax(step.dxi.tail(problem.k).cwiseAbs());
+    moves.dy = moves.dy.cwiseMax(step.dy.cwiseAbs());
+  }
+  return moves;
+}
+
 }  // namespace
 
-SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point) {
+SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point, ErrorOf of) {
   if (!point.t.allFinite()) return {INFINITY, INFINITY, INFINITY};
   const Rounding rounding = rounding_of(problem, point);
   bool scattered = false;
@@ -85,38 +131,18 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
     error.proven = true;
     return error;
   }
-  // The Newton step from here, and those that rounding could cause, with signs that a pattern does not
-  // cancel.
-  const Vector ridge = polish_ridge * problem.R;
-  const NewtonSystem system(problem, point.t, point.D, polish_theta, ridge);
-  Vector dy = Vector::Zero(problem.m), dw = Vector::Zero(problem.k);
-  double dx = 0;
-  bool mended = true;
-  const Vector root_of_D = problem.D.cwiseSqrt(), root_of_R = problem.R.cwiseSqrt().cwiseInverse();
-  const double size = problem.n > 0 ? problem.W.norm(point.xi.head(problem.n)) + problem.W.norm(problem.z)
-                                    : solution_size(problem, point);
-  for (int probe = 0; probe < 4; ++probe) {
-    const auto sign = [&](Index i) {
-      return std::fmod(0.7548776662466927 * static_cast<double>((probe + 1) * (i + 1)), 1.0) < 0.5 ? -1.0
-                                                                                                   : 1.0;
-    };
-    Vector rho = point.rho, r = point.r;
-    for (Index i = 0; i < rho.size(); ++i) rho[i] += sign(i) * rounding.rho[i];
-    for (Index i = 0; i < r.size(); ++i) r[i] += sign(i + 7) * rounding.r[i];
-    NewtonStep step = system.step(rho, r);
-    // What the step leaves of r and rho no y and w can mend (dependent rows); it says nothing about y - y*.
-    const Vector r_left = polish_theta * step.dy.cwiseQuotient(point.D);
-    const Vector w_left = ridge.cwiseProduct(step.dxi.tail(problem.k));
-    mended = mended && is_rounding(r_left, point.r, rounding.r, root_of_D, size) &&
-             is_rounding(w_left, point.rho.tail(problem.k), rounding.rho.tail(problem.k), root_of_R, size);
-    r -= r_left;
-    rho.tail(problem.k) += w_left;
-    step = system.step(rho, r);
-    dx = std::max(dx, problem.W.norm(step.dxi.head(problem.n)));
-    dw = dw.cwiseMax(step.dxi.tail(problem.k).cwiseAbs());
-    dy = dy.cwiseMax(step.dy.cwiseAbs());
-  }
   const bool at_rounding = point.residual <= settled * solution_size(problem, point);
+  Moves moves = moves_of<NewtonSystem>(problem, point, rounding, polish_theta, polish_ridge * problem.R);
+  if (of == ErrorOf::answer && at_rounding) {
+    const Moves sharp =
+        moves_of<SensitivitySystem>(problem, point, rounding, answer_theta, answer_ridge * problem.R);
+    if (sharp.known) {
+      moves.dx = std::max(moves.dx, sharp.dx);
+      moves.dy = moves.dy.cwiseMax(sharp.dy);
+      moves.dw = moves.dw.cwiseMax(sharp.dw);
+    }
+  }
+  const auto& [dx, dy, dw, known] = moves;
   const double factor = at_rounding ? safety : far_safety;
   const double product = factor * (dy.dot(point.r.cwiseAbs() + rounding.r) +
                                    dw.dot((point.rho.cwiseAbs() + rounding.rho).tail(problem.k)));
@@ -125,7 +151,7 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
   error.bound = at_rounding ? std::min(std::max(monotone, factor * dx), own_safety * dx)
                             : std::max(monotone, factor * dx);
   error.rounding = std::min(error.bound, error.rounding + factor * dx);
-  if (!system.usable() || !mended || !std::isfinite(error.bound)) error.bound = INFINITY;
+  if (!known || !std::isfinite(error.bound)) error.bound = INFINITY;
   return error;
 }
 

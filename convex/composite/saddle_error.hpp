@@ -12,6 +12,10 @@ struct SaddleError {
   bool proven = false;  ///< by firm nonexpansiveness; else estimated (see `prox`)
 };
 
-SaddleError saddle_error(const SaddleProblem&, const SaddlePoint& point);
+/// Points on the way are compared by the system that Newton's method works with. The answer that is told is
+/// held against `SensitivitySystem`, too: where a multiplier vanishes the other hides how far a w may be off.
+enum class ErrorOf { point, answer };
+
+SaddleError saddle_error(const SaddleProblem&, const SaddlePoint&, ErrorOf of = ErrorOf::point);
 
 }  // namespace convex::inline composite

@@ -115,7 +115,7 @@ const Question questions[] = {
     // Their proxes take more than half of what a look may.
     {"pointwise_max(perspective(quadratic([[9,9,9],[9,9,9],[9,9,9]], [1,2,2])), proximal_average(entropy(), "
      "total_variation(2), 0.5, 1))",
-     {-3e8, -3e8, -3e8, -3e8},
+     {-3e6, -3e6, -3e6, -3e6},
      {}},
     {"pointwise_max(conjugate(perspective(power(3))), proximal_average(precompose(zero(), [[-1,-3,-2,0]], "
      "[-3]), proximal_average(distance(affine([[-2,2,2,-1]], 0), 1), zero(), 0.5, 1), 0.5, 0.125))",
