@@ -152,6 +152,15 @@ class Sides {
 std::optional<Prox> line_prox(const Function& f, double z, double w) {
   const auto domain = domain_of_one(f);
   if (!domain || !(domain->low <= domain->high) || !(std::abs(z) <= far_end)) return std::nullopt;
+  const auto one = [](double e) -> Vector { return Vector::Constant(1, e); };
+  if (domain->low == domain->high) {  // every slope is one there
+    const double x = domain->low, v = w * (z - x);
+    const Value f_x = f.evaluate(one(x));
+    if (!std::isfinite(f_x.value)) return std::nullopt;
+    Prox found = closed_form(one(z), Metric::diagonal(one(w)), one(x), one(v));
+    found.values = PairOfValues{f_x, {v * x - f_x.value, f_x.error + unit_roundoff * std::abs(v * x)}, 0};
+    return found;
+  }
   const auto slope = [&](double x) -> std::optional<double> {
     const auto v = f.subgradient(Vector::Constant(1, x));
     WorkLimit::count();
@@ -174,7 +183,6 @@ std::optional<Prox> line_prox(const Function& f, double z, double w) {
       std::clamp(w * (z - x), sides.left().v.value_or(-infinity), sides.right().v.value_or(infinity));
   const auto values = values_of(f, x, v, sides.left(), sides.right());
   if (!values) return std::nullopt;
-  const auto one = [](double e) -> Vector { return Vector::Constant(1, e); };
   const double of_slopes =
       std::max(sides.open_at(sides.left(), f.node()), sides.open_at(sides.right(), f.node()));
   Prox found = closed_form(one(z), Metric::diagonal(one(w)), one(x), one(v));

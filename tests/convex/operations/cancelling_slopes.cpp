@@ -4,7 +4,7 @@
 
 #include "tests/convex/operations/samples.hpp"
 
-/// Proxes of one entry whose slope is what is left of large terms, or is taken at a rounded argument.
+/// Proxes of one entry whose slope is what is left of large terms, is taken at a rounded argument, or is any.
 using convex::Metric;
 using convex::Prox;
 using convex::Status;
@@ -37,4 +37,16 @@ TEST_CASE("the error of an envelope's value holds where the function is steep at
                           1)
                           .evaluate(Vector{{-2}});
   CHECK(std::abs(found.value - 97.522167951) <= found.error + 1e-8);
+}
+
+TEST_CASE("the prox of a function whose domain is one point is that point, with every slope") {
+  // Both parts of the maximum are -0.885… there.
+  const auto f = function(
+      "pointwise_max(inf_convolution(tilt(power(1.25), [1.6096934855633716]), pointwise_max(squared_hinge(), "
+      "sum(log_sum_exp(), constant(-3)))), sum(translate(indicator(hyperplane([-2], 1050)), [523.25]), "
+      "constant(-0.8853314170598544)))",
+      1);
+  const Prox found = f.prox(Vector{{-1.75}}, Metric::identity(1));
+  CHECK(found.status == Status::solved);
+  CHECK(found.x[0] == -1.75);
 }
