@@ -18,11 +18,6 @@ inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// f of a closed contact is 0 up to so many roundings of what it is the sum of.
 inline constexpr double roundings_of_closed = 16;
 
-/// Whether some constraints, or switches, have this one among them.
-inline bool is_among(const std::vector<Index>& all, Index a) {
-  return std::find(all.begin(), all.end(), a) != all.end();
-}
-
 /// What to do where gradients of contacts held vanish, or depend on each other, at one position alone.
 inline constexpr std::string_view advice_on_singular_states =
     ", a singular position, as of a linkage stretched out; write the loop otherwise (by an angle for both "

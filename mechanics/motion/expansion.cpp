@@ -252,9 +252,18 @@ bool Expansion::ends_by(int k) const {
 }
 
 ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
+  may_push_.clear();
+  exchanged_.clear();
+  ContactAnswer answer = expand_once(contacts);
+  while (!answer.excluding.empty() && exchange(contacts, answer)) answer = expand_once(contacts);
+  return answer;
+}
+
+ContactAnswer Expansion::expand_once(const ContactQuestion& contacts) {
   ContactAnswer answer;
   in_doubt_.clear();
   unloaded_ = contacts.unloaded;
+  weights_.clear();
   std::fill(lambda_.begin(), lambda_.end(), 0.0);
   std::vector<Index> persist = contacts.held, open = contacts.open;
   pushing_ = persist;

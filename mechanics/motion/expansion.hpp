@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,11 @@
 #include "mechanics/state.hpp"
 
 namespace mechanics::inline motions {
+
+/// Whether some constraints, or switches, have this one among them.
+inline bool is_among(const std::vector<Index>& all, Index a) {
+  return std::find(all.begin(), all.end(), a) != all.end();
+}
 
 /// Contacts at the beginning of an arc. `held` persist for certain, in the order in which their multipliers
 /// are to be determined where they depend on each other; `open` have f = df/dt = 0, and it is asked whether
@@ -198,8 +204,14 @@ class Expansion {
   /// with a slack are settled.
   bool leaves_open(const Vector& v, const std::vector<Index>& persist, const std::optional<HeldRows>& rows,
                    std::vector<Index>& open, ContactAnswer& answer, int k);
+  /// The higher coefficients, with those contacts pushing that `may_push_` allows.
+  ContactAnswer expand_once(const ContactQuestion& contacts);
   /// Solves order k with complementarity for the open contacts, and settles those that this order decides.
   Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k);
+  /// Whether another contact may begin to push in the place of one that the last order contradicts.
+  bool exchange(const ContactQuestion& contacts, const ContactAnswer& answer);
+  /// The first order at which the contact has a multiplier.
+  int first_push(Index a) const;
   /// What df/dt of these constraints and v are the sums of, at order k of the question.
   struct Magnitudes {
     Vector rates, velocity;
@@ -245,6 +257,15 @@ class Expansion {
   std::vector<Index> zero_rows_;
   std::vector<ContactQuestion::Unloaded> unloaded_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
+  /// Of the contacts that begin to push at an order, where their gradients leave a choice.
+  struct MayPush {
+    int order;
+    std::vector<Index> contacts;
+    bool operator==(const MayPush&) const = default;
+  };
+  std::vector<MayPush> may_push_;
+  std::vector<std::vector<MayPush>> exchanged_;  // what it was so far
+  std::vector<double> weights_;  // of constraints that exclude each other: Σ w_a u_a = 0, w·s > 0
 };
 
 }  // namespace mechanics::inline motions

@@ -31,6 +31,11 @@ constexpr Index inverted_coordinates = 300;
 /// Coefficients are rounded about so many times, where rows that depend on each other are compared.
 constexpr double roundings_of_coefficients = 1 << 10;
 
+[[noreturn]] void refuse_contradiction() {
+  throw convex::InvalidInput(
+      "whether contacts contradict each other hangs on their rounding; leave out those that others imply");
+}
+
 }  // namespace
 
 /// Coefficient k of a coordinate, while order k of the series is looked for and after it.
@@ -236,24 +241,35 @@ bool Expansion::leaves_open(const Vector& v, const std::vector<Index>& persist,
 
 Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer,
                          int k) {
+  const auto limits =
+      std::find_if(may_push_.begin(), may_push_.end(), [k](const MayPush& one) { return one.order == k; });
+  const auto others = std::stable_partition(open.begin(), open.end(), [&](Index a) {
+    return limits == may_push_.end() || is_among(limits->contacts, a);
+  });
   std::vector<Index> rows = persist;
   rows.insert(rows.end(), open.begin(), open.end());
+  const auto asked = static_cast<Index>(persist.size()) + (others - open.begin());
   convex::RowMatrix U(static_cast<Index>(rows.size()), coordinates());
   for (std::size_t a = 0; a < rows.size(); ++a) U.row(static_cast<Index>(a)) = row(rows[a]).transpose();
   const convex::Metric& A = inertia();
-  convex::NearestPointProblem problem{A, r_, convex::ConstraintRows(U), missing_rate(rows), {}};
+  const Vector s = missing_rate(rows);
+  convex::NearestPointProblem problem{A, r_, convex::ConstraintRows(U.topRows(asked)), s.head(asked), {}};
   for (std::size_t a = 0; a < persist.size(); ++a) problem.two_sided.push_back(static_cast<Index>(a));
   problem.radii = convex::rounding_radii(problem, roundings_of_coefficients);
   const convex::Solution solution = convex::automatic(problem);
   if (solution.status == convex::Status::infeasible) {
-    for (std::size_t a = 0; a < rows.size(); ++a)
-      if (solution.farkas[static_cast<Index>(a)] != 0) answer.excluding.push_back(rows[a]);
+    for (Index a = 0; a < asked; ++a)
+      if (solution.farkas[a] != 0) {
+        answer.excluding.push_back(rows[index(a)]);
+        weights_.push_back(solution.farkas[a]);
+      }
     return Vector::Zero(coordinates());
   }
-  if (solution.lambda.size() == 0)
-    throw convex::InvalidInput(
-        "whether contacts contradict each other hangs on their rounding; leave out those that others imply");
-  give_multipliers(k, rows, solution.lambda * (k + 1));
+  if (solution.lambda.size() == 0) refuse_contradiction();
+  Vector lambda = Vector::Zero(s.size()), slack = U * solution.q - s;
+  lambda.head(asked) = solution.lambda;
+  slack.head(asked) = solution.slack;
+  give_multipliers(k, rows, lambda * (k + 1));
   const Magnitudes of = magnitudes_of_order(rows, k);
   const double part = rounding(k);
   std::vector<Index> undecided;
@@ -261,12 +277,11 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
     const auto at = static_cast<Index>(a);
     const Vector u = U.row(at).transpose();
     // What the contact's push changes in d²f/dt², and what rounding may have made of that.
-    const double push = solution.lambda[at] * u.dot(A.solve(u));
-    const double by_rounding = std::max(part * (std::abs(problem.s[at]) + of.rates[at] + of.along(u)),
+    const double push = lambda[at] * u.dot(A.solve(u));
+    const double by_rounding = std::max(part * (std::abs(s[at]) + of.rates[at] + of.along(u)),
                                         k == 0 ? left_of_push(rows[a], u) : 0);
-    if (is_in_doubt(solution.slack[at], by_rounding) || is_in_doubt(push, by_rounding))
-      in_doubt_.push_back(rows[a]);
-    if (solution.slack[at] > by_rounding) {
+    if (is_in_doubt(slack[at], by_rounding) || is_in_doubt(push, by_rounding)) in_doubt_.push_back(rows[a]);
+    if (slack[at] > by_rounding) {
       answer.open.push_back({rows[a], k + 2});
     } else if (push > by_rounding) {
       persist.push_back(rows[a]);
@@ -278,6 +293,47 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
   }
   open = std::move(undecided);
   return solution.q;
+}
+
+int Expansion::first_push(Index a) const {
+  const std::span<const double> lambda = multiplier(a);
+  return static_cast<int>(std::find_if(lambda.begin(), lambda.end(), [](double c) { return c != 0; }) -
+                          lambda.begin());
+}
+
+/// Multipliers of gradients that depend on each other are not unique, and contacts that were found to push at
+/// a lower order may contradict one that can take over from them, as the floor of {y >= 0, y >= x²} does once
+/// x moves. Along the weights of the contradiction, Σ w_a u_a = 0, multipliers change no force and raise the
+/// dual objective w·s of this order; they go so far until one comes to 0, of which the contact lets go
+/// (Goldfarb and Idnani 1983). Where none does the contradiction is one of the contacts.
+bool Expansion::exchange(const ContactQuestion& contacts, const ContactAnswer& answer) {
+  const auto is_one_sided = [&](Index a) { return !is_among(contacts.held, a); };
+  Index leaving = -1;
+  int order = -1;
+  double least = 0;
+  for (std::size_t i = 0; i < answer.excluding.size(); ++i) {
+    const Index a = answer.excluding[i];
+    if (!(weights_[i] < 0) || !is_one_sided(a) || !is_among(pushing_, a)) continue;
+    const int first = first_push(a);
+    const double length = -multiplier(a)[index(first)] / weights_[i];
+    if (first < order || (first == order && length >= least)) continue;
+    leaving = a, order = first, least = length;
+  }
+  if (leaving < 0) return false;
+  MayPush next{order, {}};
+  for (const Index a : pushing_)
+    if (is_one_sided(a) && a != leaving && first_push(a) == order) next.contacts.push_back(a);
+  for (std::size_t i = 0; i < answer.excluding.size(); ++i) {
+    const Index a = answer.excluding[i];
+    const bool pushes = is_among(pushing_, a) && first_push(a) <= order;
+    if (weights_[i] > 0 && is_one_sided(a) && !pushes) next.contacts.push_back(a);
+  }
+  std::sort(next.contacts.begin(), next.contacts.end());
+  std::erase_if(may_push_, [&](const MayPush& one) { return one.order >= order; });
+  may_push_.push_back(std::move(next));
+  if (std::find(exchanged_.begin(), exchanged_.end(), may_push_) != exchanged_.end()) refuse_contradiction();
+  exchanged_.push_back(may_push_);
+  return true;
 }
 
 }  // namespace mechanics::inline motions

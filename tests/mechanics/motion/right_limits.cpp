@@ -107,3 +107,28 @@ TEST_CASE("bodies that friction brings to rest at once stay there, however many"
   CHECK(motion.end().q[0] == doctest::Approx(0.5).epsilon(1e-12));
   CHECK(motion.end().q[5] == doctest::Approx(1.125).epsilon(1e-12));
 }
+
+TEST_CASE("of contacts with one gradient at rest those push that the others follow from once a body moves") {
+  const std::vector<std::pair<std::string, std::string>> all[] = {
+      {{"floor", "y >= 0"}, {"bowl", "y >= x^2"}},
+      {{"bowl", "3*y >= 3*x^2"}, {"dome", "y >= -x^2"}, {"floor", "y >= 0"}, {"again", "y >= x^2"}},
+      {{"a", "y >= x^2/2"}, {"b", "2*y >= x^2"}, {"c", "y >= x^2"}, {"d", "y >= 0"}, {"e", "y >= x^3/9"}}};
+  for (const auto& constraints : all) {
+    const Followed motion = followed({{"x", "y"}, "(x'^2+y'^2)/2", "9.81*y - x", {}, {}, {}, constraints},
+                                     state({0, 0}, {0, 0}), 0.5);
+    REQUIRE(motion.motion.status() == MotionStatus::done);
+    const auto& [t, q, v] = motion.end();
+    const double x = q[0];
+    CHECK(x > 0.01);
+    CHECK(q[1] == doctest::Approx(x * x).epsilon(1e-12));  // on the bowl, and with the energy of the start
+    CHECK(v[0] == doctest::Approx(std::sqrt(2 * (x - 9.81 * x * x) / (1 + 4 * x * x))).epsilon(1e-10));
+    CHECK(v[1] == doctest::Approx(2 * x * v[0]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("at rest contacts of one gradient that no motion satisfies exclude each other") {
+  const Followed motion =
+      followed({{"x", "y"}, "(x'^2+y'^2)/2", "y - x", {}, {}, {}, {{"bowl", "y >= x^2"}, {"lid", "y <= 0"}}},
+               state({0, 0}, {0, 0}), 1);
+  CHECK(motion.motion.status() == MotionStatus::infeasible);
+}
