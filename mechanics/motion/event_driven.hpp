@@ -88,7 +88,8 @@ class Motion::EventDriven final : public Motion::Course {
   /// Appends to `at_zero` what is at 0 with the branches of the others.
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   std::vector<Index>& at_zero);
-  double sign_ahead(std::size_t k, std::vector<double> by_rounding);
+  std::optional<double> sign_ahead(std::size_t k, std::vector<double> by_rounding);
+  void take_signs_beside(const std::vector<Index>& switches, std::vector<double>& signs);
   bool has_left_its_branch(std::size_t k, double tau);
   void note_across(double tau);
   double distance_of_zero(const Zero& zero, double tau);

@@ -131,7 +131,7 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
   }
   const auto roundings = expansion_.rounding_of_switches(unmoved, expansion_.order() - 1);
   for (std::size_t i = 0; i < unmoved.size(); ++i)
-    if (sign_ahead(static_cast<std::size_t>(unmoved[i]), roundings[i]) != 0)
+    if (sign_ahead(static_cast<std::size_t>(unmoved[i]), roundings[i]).value_or(0) != 0)
       found.push_back({Zero::Of::branch, unmoved[i], done.length});
   for (const Index a : persist_) {
     const auto k = static_cast<std::size_t>(a);
@@ -144,8 +144,9 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
 /// there is none. Each order has its own scale: derivatives of a fast motion grow with their order. A double
 /// zero is met a little beside: of its terms that one counts which comes first to what is left of it there.
-double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rounding) {
-  const std::span<const double> c = expansion_.switch_argument(k);
+/// Nothing where the series does not tell it.
+std::optional<double> Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rounding) {
+  const std::span<const double> c = expansion_.switch_argument(k).first(expansion_.known_of_argument(k));
   if (std::isnan(c[0])) return expansion_.branch(k);  // not asked on these branches
   Argument& argument = arguments_[k];
   if (argument.jumps && c[0] != 0) return std::copysign(1.0, c[0]);
@@ -181,7 +182,8 @@ double Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rou
       first = c.size();
   }
   argument.zeros = static_cast<int>(std::min(first, c.size()));
-  return first < c.size() ? std::copysign(1.0, c[first]) : 0;
+  if (first < c.size()) return std::copysign(1.0, c[first]);
+  return c.size() < expansion_.switch_argument(k).size() ? std::nullopt : std::optional(0.0);
 }
 
 /// The branches of the others where these jump, and with them an argument such as that of sign(if(x < 0, y,
@@ -249,9 +251,22 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
       if (!answer->excluding.empty()) return Found::excluded;
       Found found = Found::itself;
       const auto roundings = expansion_.rounding_of_switches(at_zero, expansion_.order() - 1);
+      std::vector<Index> untold;
       for (std::size_t i = 0; i < at_zero.size(); ++i) {
         const auto k = static_cast<std::size_t>(at_zero[i]);
-        const double sign = ahead[k] = sign_ahead(k, roundings[i]);
+        const std::optional<double> sign = sign_ahead(k, roundings[i]);
+        ahead[k] = sign.value_or(0);
+        if (!sign) untold.push_back(at_zero[i]);
+      }
+      if (!untold.empty()) {
+        take_signs_beside(untold, ahead);
+        expansion_.set(state);
+        expansion_.take_bases_for_zero();
+        answer = expansion_.expand(question);
+      }
+      for (const Index which : at_zero) {
+        const auto k = static_cast<std::size_t>(which);
+        const double sign = ahead[k];
         if (sign == 0) may_stay[k] = true;
         if (sign != expansion_.branch(k))
           found = sign == 0 && found != Found::nothing ? Found::beside : Found::nothing;

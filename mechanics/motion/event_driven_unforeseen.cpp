@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "mechanics/motion/event_driven.hpp"
+#include "mechanics/motion/step_length.hpp"
 #include "mechanics/motion/terms.hpp"
 
 /// What the series of an arc do not tell of the arguments of branches and of free contacts, found by the text
@@ -39,6 +40,41 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   const double told = std::pow(tau, one.zeros) * value_at(one.c, tau);
   // The rounding of the argument takes a look at all series: it is asked for only where it may matter.
   return !tells(told, there, digits) && !tells(told, there, digits + expansion_.rounding_of_argument(k));
+}
+
+/// The signs with which arguments at 0 go on whose derivatives have no bound, by the text on the arc ahead:
+/// each at the first time, of a geometric sequence, at which the argument is more than rounding may have made
+/// it.
+void Motion::EventDriven::take_signs_beside(const std::vector<Index>& switches, std::vector<double>& signs) {
+  Arc ahead;
+  ahead.t = state.t;
+  ahead.q.resize(expansion_.coordinates(), expansion_.order() + 1);
+  for (Index i = 0; i < ahead.q.rows(); ++i)
+    std::copy_n(expansion_.position(i).begin(), ahead.q.cols(), ahead.q.row(i).begin());
+  std::vector<double> sizes;
+  expansion_.sizes(sizes);
+  const double told = step_length(sizes, tolerance_of_step(options.tolerance)),
+               left = std::isfinite(until_) ? until_ - state.t : 1,
+               length = std::isfinite(told) ? told : left;
+  constexpr double ratio = 16;
+  State there;
+  for (double tau = std::max(epsilon * epsilon * length, rounding_of_time(0)); tau <= length; tau *= ratio) {
+    ahead.state(tau, there);
+    try {
+      expansion_.look_at(there);
+    } catch (const convex::InvalidInput&) {
+      continue;
+    }
+    for (const Index which : switches) {
+      const auto k = static_cast<std::size_t>(which);
+      const double argument = expansion_.switch_argument(k)[0];
+      if (signs[k] == 0 && std::abs(argument) > expansion_.rounding_of_argument(k))
+        signs[k] = std::copysign(1.0, argument);
+    }
+    if (std::all_of(switches.begin(), switches.end(),
+                    [&](Index k) { return signs[static_cast<std::size_t>(k)] != 0; }))
+      return;
+  }
 }
 
 /// The switches of which that holds at a time of the next arc.

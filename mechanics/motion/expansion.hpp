@@ -150,6 +150,10 @@ class Expansion {
   std::span<const double> switch_argument(std::size_t k) const {
     return series_[steps_.switches[k].argument].first(static_cast<std::size_t>(order_ - 1));
   }
+  /// So many of these, from the first one on, do not hang on derivatives without a bound.
+  std::size_t known_of_argument(std::size_t k) const {
+    return static_cast<std::size_t>(std::min(order_ - 1, series_.known(steps_.switches[k].argument)));
+  }
   /// What functions such as exp and sin are taken of, coefficients 0 to `order`.
   const std::vector<FunctionArgument>& arguments() const { return steps_.arguments; }
   std::span<const double> argument(const FunctionArgument& one) const { return series_[one.argument]; }

@@ -54,6 +54,7 @@ TaylorSeries::TaylorSeries(const TaylorProgram& of, int order)
   for (const auto& [series, value] : of.steps.constants) at(series)[0] = value;
   if (std::none_of(of.steps.steps.begin(), of.steps.steps.end(), takes_base)) return;
   stays_zero_.resize(rows_.series);
+  known_.assign(rows_.series, order_ + 1);
   for (const auto& [series, value] : of.steps.constants) stays_zero_[series] = value == 0;
 }
 
@@ -63,7 +64,11 @@ void TaylorSeries::begin(std::size_t group) {
   for (std::size_t s = first; s < steps_->ends[group]; ++s) {
     const TaylorStep& step = steps_->steps[s];
     at(step.out)[0] = value(step);
-    if (!stays_zero_.empty()) stays_zero_[step.out] = stays_zero(step);
+    if (!stays_zero_.empty()) {
+      stays_zero_[step.out] = stays_zero(step);
+      known_[step.out] = known(step);
+      if (has_partner(step)) known_[step.partner] = known_[step.out];
+    }
     if (const std::uint32_t row = rows_.row_of_step[s]; row != TaylorRows::none) differentiate(step, row);
   }
 }

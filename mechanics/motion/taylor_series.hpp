@@ -64,6 +64,9 @@ class TaylorSeries {
   /// is not finite; its derivatives count as 0. 0 where there is none.
   int without_bound() const { return without_bound_; }
 
+  /// So many of its coefficients, from the first one on, do not hang on such derivatives.
+  int known(Slot series) const { return known_.empty() ? order_ + 1 : known_[series]; }
+
   /// The recurrences, and their terms with the partial derivatives at order 0.
   const TaylorRows& rows() const { return rows_; }
   const std::vector<TaylorRows::Term>& terms() const { return terms_; }
@@ -79,6 +82,7 @@ class TaylorSeries {
   double value(const TaylorStep& step);
   double base(const TaylorStep& step) const;
   bool stays_zero(const TaylorStep& step) const;
+  int known(const TaylorStep& step) const;
   void differentiate_at_zero(const TaylorStep& step, double exponent, double& by, double& factor);
   void differentiate(const TaylorStep& step, std::uint32_t row);
   double of_row(std::size_t row) const;
@@ -100,7 +104,8 @@ class TaylorSeries {
   std::vector<double> branches_;
   std::vector<Slot> bases_at_zero_;
   std::vector<bool>
-      stays_zero_;  // by series, on the branches taken; empty where no root or power asks for it
+      stays_zero_;          // by series, on the branches taken; empty where no root or power asks for it
+  std::vector<int> known_;  // likewise
   std::vector<double> velocity_;
   int degree_ = 0, found_ = 0, without_bound_ = 0;
 };

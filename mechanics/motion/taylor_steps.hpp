@@ -44,6 +44,12 @@ inline bool takes_base(const TaylorStep& step) {
   return step.kind == TaylorStep::Kind::root || step.kind == TaylorStep::Kind::power;
 }
 
+/// Whether the partner is a result, too.
+inline bool has_partner(const TaylorStep& step) {
+  using enum TaylorStep::Kind;
+  return step.kind == sine || step.kind == sinh || step.kind == tangent || step.kind == tanh;
+}
+
 /// An argument whose sign chooses a branch of an expression, such as x in |x| or x - y in max(x, y).
 struct Switch {
   expression::Slot argument;

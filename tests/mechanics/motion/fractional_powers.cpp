@@ -266,3 +266,43 @@ TEST_CASE("a velocity turns under drag by two powers of it, in the time that the
     CHECK(slowing + gaining == doctest::Approx(5).epsilon(1e-10));
   }
 }
+
+TEST_CASE("a branch that hangs on roots and powers of what is 0 is that of their sign a moment later") {
+  // x = t² - t is below 0 until t = 1; y'' is 1 so long, and 3 then.
+  for (const char* argument : {"x", "hypot(x, 0)*x", "x*hypot(x, x^2)", "x*sqrt(x^2 + x^4)", "abs(x)^0.3*x",
+                               "max(x, 0)^1.5 - max(-x, 0)^0.7", "abs(abs(x)^0.5)^0.5*x"}) {
+    CAPTURE(argument);
+    const Followed motion = followed({{"x", "y"},
+                                      "(x'^2+y'^2)/2",
+                                      "-2*x",
+                                      {},
+                                      {},
+                                      {{"y", "if(" + std::string(argument) + " >= 0, 3, 1)"}},
+                                      {}},
+                                     state({0, 0}, {-1, 0}), 2);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().v[1] == doctest::Approx(4).epsilon(1e-12));
+    CHECK(motion.end().q[1] == doctest::Approx(3).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("powers of powers of a distance are below a bound on both sides of 0, and no further") {
+  constexpr double half_width = 0.0081;  // 0.3⁴
+  for (const char* power : {"abs(x)^0.25", "abs(abs(sqrt(abs(x)))^0.5)", "abs(abs(abs(x)^0.5)^0.5)"}) {
+    CAPTURE(power);
+    const Followed motion = followed(
+        {{"x", "y"}, "(x'^2+y'^2)/2", "", {}, {}, {{"y", "if(" + std::string(power) + " < 0.3, 1, 0)"}}, {}},
+        state({0.1, 0}, {-1, 0}), 2);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().v[1] == doctest::Approx(2 * half_width).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("a slide stops a motion however the velocity is written that changes its sign there") {
+  for (const char* argument : {"x'", "hypot(x', 0)*x'", "max(x', 0)^1.5 - max(-x', 0)^0.7"}) {
+    CAPTURE(argument);
+    const Followed motion = pushed("if(" + std::string(argument) + " > 0, -1, 2)", 0, -1, 2);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(motion.motion.why().find("slides") != std::string::npos);
+  }
+}
