@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mechanics/motion/event_driven.hpp"
+#include "mechanics/motion/leaving_zero.hpp"
 
 /// The right limit of an arc where arguments of branches are 0: the branch of each is the sign with which its
 /// argument goes on, which depends on q'' and so on the branches.
@@ -142,9 +143,9 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
 }
 
 /// The sign with which an argument at 0 goes on: of the first derivative that is not 0 but for rounding; 0 if
-/// there is none. Each order has its own scale: derivatives of a fast motion grow with their order. A double
-/// zero is met a little beside: of its terms that one counts which comes first to what is left of it there.
-/// Nothing where the series does not tell it.
+/// there is none. Each order has its own scale: derivatives of a fast motion grow with their order. A zero of
+/// higher order is met a little beside: it goes on with the sign with which it comes first to what is left of
+/// it there. Nothing where the series does not tell it.
 std::optional<double> Motion::EventDriven::sign_ahead(std::size_t k, std::vector<double> by_rounding) {
   const std::span<const double> c = expansion_.switch_argument(k).first(expansion_.known_of_argument(k));
   if (std::isnan(c[0])) return expansion_.branch(k);  // not asked on these branches
@@ -167,19 +168,13 @@ std::optional<double> Motion::EventDriven::sign_ahead(std::size_t k, std::vector
     if (std::isnan(c[first])) throw convex::InvalidInput("an argument of a branch has no derivative there");
     ++first;
   }
-  const bool is_double = first > 1 || (first == 1 && !argument.crosses);
   if (record.steps > 0 && first > 0 && first < c.size() && farthest > 0) {
-    const auto width = [&](std::size_t j) {
-      const double root = 1 / static_cast<double>(j);  // their quotient may be no double
-      return std::pow(farthest, root) / std::pow(std::abs(c[j]), root);
-    };
-    for (std::size_t j = first + 1; is_double && j < c.size(); ++j)
-      if (std::abs(c[j]) > by_rounding[j] && width(j) < width(first)) first = j;
+    const LeavingTerm leaving = leaving_term(c, by_rounding, first, farthest);
+    first = leaving.order;
     // What is left of a rest, c_0 or c_1, moves on by itself, and stays within that for as long as it took to
     // come here, from farther.
     const bool is_left = (c[0] != 0 || c[1] != 0) && argument.terms_behind > farthest;
-    if (is_left && since_event_ > instants_until_rest * moment && width(first) > since_event_)
-      first = c.size();
+    if (is_left && since_event_ > instants_until_rest * moment && leaving.at > since_event_) first = c.size();
   }
   argument.zeros = static_cast<int>(std::min(first, c.size()));
   if (first < c.size()) return std::copysign(1.0, c[first]);

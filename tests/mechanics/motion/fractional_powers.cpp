@@ -55,7 +55,7 @@ TEST_CASE("a ball that falls from a spring of Hertz comes back to it, with the v
     const double energy = speed * speed / 2 + 9.81 * x + 0.4e4 * std::pow(std::max(-x, 0.0), 2.5);
     const double at_start = v * v / 2 + (v == 0 ? 0 : 9.81 * 0.5);
     CHECK(std::abs(energy - at_start) < 1e-8);
-    CHECK(motion.events.size() > 20);
+    if (v != 0) CHECK(motion.events.size() > 20);  // else it is never above the spring
   }
 }
 

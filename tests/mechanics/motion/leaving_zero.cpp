@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "mechanics/motion/leaving_zero.hpp"
 #include "tests/mechanics/motion/followed.hpp"
 
 /// Arguments of branches, and multipliers, that are 0 at the start or for a while.
@@ -167,4 +169,47 @@ TEST_CASE("a body that friction alone slows down comes to rest, whatever roundin
     }
   const double rest = 1 / 0.2 - 0.3 / 0.04 * std::log(1 + 0.2 / 0.3);  // of x'' = -0.3 - 0.2 x' from 1
   CHECK(pushed("-0.3*sign(x') - 0.2*x'", 0, 1, 20).end().q[0] == doctest::Approx(rest).epsilon(1e-12));
+}
+
+TEST_CASE("a condition that is never below 0 holds beyond a zero of whatever order") {
+  // x'' = -1 from x' = 1: x' comes to -0.3 at t = 1.3.
+  for (const char* size : {"(x' + 0.3)^2", "sqrt(1 + (x' + 0.3)^4) - 1", "cosh((x' + 0.3)^2) - 1",
+                           "exp((x' + 0.3)^4) - 1", "hypot(1, (x' + 0.3)^3) - 1", "(x' + 0.3)^6"}) {
+    CAPTURE(size);
+    const Followed motion = followed(
+        {{"x"}, "x'^2/2", "", {}, {}, {{"x", "-step(" + std::string(size) + ")"}}, {}}, state({0}, {1}), 2);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(0).epsilon(1e-12));
+    CHECK(motion.end().v[0] == doctest::Approx(-1).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a sum of powers leaves 0 with the sign that it has where it is first so far from it") {
+  struct Case {
+    std::vector<double> c;
+    double farthest;
+  };
+  const Case cases[] = {{{0, 0, 0, 0, 0, -0.0059, 0.5}, 1.2e-12},
+                        {{0, -1e-6, 0, 1}, 1e-12},
+                        {{0, -1e-6, 0, 1}, 1e-8},
+                        {{0, 1, -1e8}, 1e-12},
+                        {{0, 1, -1e8}, 1e-7},
+                        {{0, 0, 2, -3e3, 1e6}, 1e-5}};
+  for (const auto& [c, farthest] : cases) {
+    CAPTURE(c.size());
+    CAPTURE(farthest);
+    const auto sum = [&c = c](double tau) {
+      double found = 0;
+      for (std::size_t k = 0; k < c.size(); ++k) found += c[k] * std::pow(tau, k);
+      return found;
+    };
+    double tau = 1e-14;
+    while (std::abs(sum(tau)) < farthest) tau *= 1 + 1e-4;
+    std::size_t first = 1;
+    while (c[first] == 0) ++first;
+    const mechanics::LeavingTerm found =
+        mechanics::leaving_term(c, std::vector<double>(c.size()), first, farthest);
+    CHECK(c[found.order] * sum(tau) > 0);
+    CHECK(found.at == doctest::Approx(tau).epsilon(0.3));
+  }
 }
