@@ -74,10 +74,8 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   note_behind();
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   // Those that stayed 0 may go on otherwise; and where double zeros are one, rounding parts them.
-  const bool any = !switches.empty();
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    if ((expansion_.branch(k) == 0 || (any && is_at_zero_of_arc(k))) &&
-        !is_among(switches, static_cast<Index>(k)))
+    if ((expansion_.branch(k) == 0 || is_at_zero_of_arc(k)) && !is_among(switches, static_cast<Index>(k)))
       switches.push_back(static_cast<Index>(k));
   tell_blur(zeros);
   if (closing.size() > 1) tell_order(zeros, closing);

@@ -213,3 +213,16 @@ TEST_CASE("a sum of powers leaves 0 with the sign that it has where it is first 
     CHECK(found.at == doctest::Approx(tau).epsilon(0.3));
   }
 }
+
+TEST_CASE(
+    "a body that comes back to its floor with the velocity 0 where its spring has a kink leaves again") {
+  for (const char* spring : {"100*max(x, 0)", "if(x > 0, 100*x, 0)", "100*abs(x)", "100*x"}) {
+    CAPTURE(spring);
+    const Followed motion = followed(
+        {{"x"}, "x'^2/2", "", {}, {}, {{"x", "0.2 - " + std::string(spring)}}, {{"floor", "x >= 0"}}},
+        state({0}, {0}), 2);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(0.002 * (1 - std::cos(20.0))).epsilon(1e-10));
+    CHECK(motion.end().v[0] == doctest::Approx(0.02 * std::sin(20.0)).epsilon(1e-10));
+  }
+}
