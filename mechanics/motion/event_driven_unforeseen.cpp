@@ -136,15 +136,15 @@ bool Motion::EventDriven::leads_from_pole() {
 
 /// How far an argument is before its zero at the end of a step, or past it, < 0, by the text: 0 where
 /// rounding does not tell. The polynomial tells a zero of higher order no better than to where it is within
-/// rounding.
+/// rounding, and far from it takes two zeros for a touch.
 double Motion::EventDriven::distance_of_zero(const Zero& zero, double tau) {
   const double moment = rounding_of_time(0);
-  if (zero.of != Zero::Of::branch || zero.is_touch || zero.is_jump) return 0;
+  if (zero.of != Zero::Of::branch || zero.is_jump) return 0;
   if (!(tau > roundings_of_zero * moment)) return 0;
   const auto k = static_cast<std::size_t>(zero.which);
   const double distance = expansion_.switch_argument(k)[0] * expansion_.branch(k),
                left = expansion_.rounding_of_argument(k) + rate_of_argument(k, tau) * moment;
-  return std::abs(distance) > left ? distance : 0;
+  return std::abs(distance) > left ? (zero.is_touch ? std::min(distance, 0.0) : distance) : 0;
 }
 
 }  // namespace mechanics::inline motions

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
 
 #include "tests/mechanics/motion/followed.hpp"
 
@@ -225,5 +226,24 @@ TEST_CASE("a motion that comes to a singular position, or starts there, stops wi
     CHECK(motion.motion.why().find("a singular position") != std::string::npos);
     CHECK(motion.motion.why().find("--method time-stepping") != std::string::npos);
     CHECK(motion.motion.why().find("y^3") == std::string::npos);
+  }
+}
+
+TEST_CASE("a narrow zone that a square tells is met at both of its sides, however far away") {
+  struct Case {
+    std::string zone;
+    double width, until;
+  };
+  const Case cases[] = {{"(t - 50.3)^2 < 1e-12", 2e-6, 60},
+                        {"(x - 50.3)^2 < 1e-12", 2e-6, 60},
+                        {"1e-8 - (t - 5000.2)^2 > 0", 2e-4, 1e4},
+                        {"x^2 - 1000.6*x + 500.3^2 < 1e-4", 2e-2, 1e3}};
+  for (const auto& [zone, width, until] : cases) {
+    CAPTURE(zone);
+    const Followed motion =
+        followed({{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {{"y", "if(" + zone + ", 1, 0)"}}, {}},
+                 state({0, 0}, {1, 0}), until);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().v[1] == doctest::Approx(width).epsilon(1e-7));
   }
 }
