@@ -160,6 +160,7 @@ class Motion::EventDriven final : public Motion::Course {
     int zeros = 0;                              ///< leading ones on the next arc
   };
   std::vector<Argument> arguments_;         // by switch
+  bool by_single_terms_ = false;            // the sign ahead of an argument
   std::vector<std::size_t> without_value_;  // switches whose argument is not finite as the next arc begins
   std::vector<ContactQuestion::Unloaded> unloaded_;  // in the event at hand
   std::vector<bool> is_weak_;                        // held without a multiplier

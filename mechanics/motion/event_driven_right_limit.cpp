@@ -169,7 +169,8 @@ std::optional<double> Motion::EventDriven::sign_ahead(std::size_t k, std::vector
     ++first;
   }
   if (record.steps > 0 && first > 0 && first < c.size() && farthest > 0) {
-    const LeavingTerm leaving = leaving_term(c, by_rounding, first, farthest);
+    const std::size_t seen = first == 1 && argument.crosses && !by_single_terms_ ? 2 : c.size();
+    const LeavingTerm leaving = leaving_term(c.first(seen), by_rounding, first, farthest, by_single_terms_);
     first = leaving.order;
     // What is left of a rest, c_0 or c_1, moves on by itself, and stays within that for as long as it took to
     // come here, from farther.
@@ -225,10 +226,9 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   using Branches = std::vector<double>;
   const std::size_t switches = expansion_.switches(), asked = at_zero.size();
   const bool begins = record.steps == 0;
-  std::vector<double> before;
-  for (std::size_t k = 0; k < switches; ++k) before.push_back(expansion_.switch_argument(k)[0]);
-  Branches across;
-  for (std::size_t k = 0; k < switches; ++k) across.push_back(expansion_.branch(k));
+  Branches before, across;
+  for (std::size_t k = 0; k < switches; ++k)
+    before.push_back(expansion_.switch_argument(k)[0]), across.push_back(expansion_.branch(k));
   for (const Index which : at_zero) {
     double& branch = across[static_cast<std::size_t>(which)];
     branch = begins ? 0 : arguments_[static_cast<std::size_t>(which)].crosses ? -branch : branch;
@@ -286,13 +286,20 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
     if (found > best) best = found, of_best = followed;
     tried.emplace_back(at_zero.size(), std::move(followed));
   };
-  Branches trial = across;
-  for (bool is_first = true; best != Found::itself && (is_first || is_new(trial)); is_first = false) {
-    Branches last = trial;
-    for (; best != Found::itself && is_new(trial); trial = ahead) take(last = trial);
-    for (std::size_t k = 0; k < switches; ++k)  // neither sign goes on, as of a body that comes to rest
-      if (trial[k] != last[k]) trial[k] = 0;
+  // What crosses 0 does so with its rate; only where no branch goes on so it may have but touched it.
+  for (const bool single : {false, true}) {
+    if (best == Found::itself) break;
+    by_single_terms_ = single;
+    tried.clear();
+    Branches trial = across;
+    for (bool is_first = true; best != Found::itself && (is_first || is_new(trial)); is_first = false) {
+      Branches last = trial;
+      for (; best != Found::itself && is_new(trial); trial = ahead) take(last = trial);
+      for (std::size_t k = 0; k < switches; ++k)  // neither sign goes on, as of a body that comes to rest
+        if (trial[k] != last[k]) trial[k] = 0;
+    }
   }
+  by_single_terms_ = false;
   const std::vector<Index> varied(at_zero.begin(),
                                   at_zero.begin() + static_cast<long>(std::min(at_zero.size(), most_tried)));
   const auto choices = static_cast<std::size_t>(std::pow(3, varied.size()));

@@ -17,7 +17,7 @@ constexpr int most_looks = 100;
 }  // namespace
 
 LeavingTerm leaving_term(std::span<const double> c, std::span<const double> by_rounding, std::size_t first,
-                         double farthest) {
+                         double farthest, bool alone) {
   convex::invariant(c.size() <= most_coefficients, "series of a motion have fewer coefficients");
   std::array<double, most_coefficients> width;  // the time at which a term alone comes so far; else infinite
   width.fill(std::numeric_limits<double>::infinity());
@@ -29,7 +29,7 @@ LeavingTerm leaving_term(std::span<const double> c, std::span<const double> by_r
     if (width[k] < width[nearest]) nearest = k;
   }
   double sum = 0, at = width[nearest];
-  for (int look = 0; look < most_looks && !(std::abs(sum) >= 1); ++look, at *= ratio) {
+  for (int look = 0; !alone && look < most_looks && !(std::abs(sum) >= 1); ++look, at *= ratio) {
     sum = 0;
     for (std::size_t k = first; k < c.size(); ++k)
       if (std::isfinite(width[k])) sum += std::copysign(std::pow(at / width[k], k), c[k]);

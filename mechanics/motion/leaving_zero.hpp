@@ -13,8 +13,8 @@ struct LeavingTerm {
 };
 
 /// c: c_first is more than its rounding. A sum whose terms cancel as far as they are followed leaves with the
-/// term that comes so far first.
+/// term that comes so far first, and so does one of which the terms are looked at alone.
 LeavingTerm leaving_term(std::span<const double> c, std::span<const double> by_rounding, std::size_t first,
-                         double farthest);
+                         double farthest, bool alone = false);
 
 }  // namespace mechanics::inline motions
