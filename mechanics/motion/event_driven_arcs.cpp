@@ -236,9 +236,16 @@ void Motion::EventDriven::fill_next() {
   // Of a series of zeros nothing is known but that it begins so, as that of t^40.
   const bool may_hide = std::isinf(told) && (m > 0 || expansion_.switches() > 0);
   is_blind_ = is_blind_ || !without_value_.empty() || expansion_.may_jump() || may_hide;
-  for (const Watched& one : watched_)
-    if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
-      step_ahead_ = std::min(step_ahead_, std::max(trusted_length(one.c, tolerance), rounding_of_time(0)));
+  for (const Watched& one : watched_) {
+    const auto which = static_cast<std::size_t>(one.which);
+    if (one.of == Zero::Of::multiplier && is_weak_[which]) continue;
+    // A quotient that is far from its pole is nothing beside a number it is compared with, but comes near.
+    const bool may_jump = (one.of == Zero::Of::branch && expansion_.argument_may_jump(which)) ||
+                          (one.of == Zero::Of::constraint && expansion_.constraint_may_jump(one.which));
+    const std::span<const double> c(one.c), seen = may_jump && c.size() > 1 ? c.subspan(1) : c;
+    const double length = std::min(trusted_length(c, tolerance), trusted_length(seen, tolerance));
+    step_ahead_ = std::min(step_ahead_, std::max(length, rounding_of_time(0)));
+  }
 }
 
 /// Free contacts whose f comes to 0 at the end of the motion asked for, as far as the rounding of time tells:

@@ -247,3 +247,26 @@ TEST_CASE("a narrow zone that a square tells is met at both of its sides, howeve
     CHECK(motion.end().v[1] == doctest::Approx(width).epsilon(1e-7));
   }
 }
+
+TEST_CASE("a narrow bump that a quotient makes is met, however far away and however flat its tail is") {
+  struct Case {
+    std::string bump;
+    double width, until;
+  };
+  const Case cases[] = {{"1/(1 + ((x - 50.3)/0.01)^8)", 0.02, 100},
+                        {"1/(1 + ((t - 1.2345)/0.001)^8)", 0.002, 3},
+                        {"(1 + ((t - 1.2345)/0.001)^8)^-1", 0.002, 3},
+                        {"1/(1 + ((t - 1.2345)/0.1)^20)", 0.2, 3}};
+  for (const auto& [bump, width, until] : cases) {
+    CAPTURE(bump);
+    const Followed motion =
+        followed({{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {{"y", "if(" + bump + " > 0.5, 1, 0)"}}, {}},
+                 state({0, 0}, {1, 0}), until);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().v[1] == doctest::Approx(width).epsilon(1e-9));
+  }
+  const SystemText floor = particle("y >= 0.2/(1 + ((x - 50)/0.01)^8)");
+  const Followed struck = followed(floor, state({0, 0.1}, {1, 0}), 60, restitution(floor, 1));
+  REQUIRE(struck.motion.record().impacts == 1);
+  CHECK(struck.events[0].t == doctest::Approx(49.99).epsilon(1e-9));
+}
