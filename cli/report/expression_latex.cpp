@@ -113,7 +113,7 @@ class ExpressionWriter {
     if (peek() == '(') {
       ++at_;
       const std::string inside = sequence(')');
-      return "(" + inside + ")" + dots("");
+      return derivative("(" + inside + ")");
     }
     if (peek() == '[') {
       ++at_;
@@ -132,9 +132,24 @@ class ExpressionWriter {
     return dots(name_latex(name)) + index;
   }
 
-  std::string dots(const std::string& of) {
+  std::size_t primes() {
     std::size_t count = 0;
     for (; peek() == '\''; ++at_) ++count;
+    return count;
+  }
+
+  /// Of parentheses: a dot above them would be lost.
+  std::string derivative(const std::string& of) {
+    const std::size_t count = primes();
+    if (count == 0) return of;
+    const std::string power = count > 1 ? "^{" + std::to_string(count) + "}" : "";
+    const std::string made = "\\frac{\\mathrm{d}" + power + "}{\\mathrm{d}t" + power + "}" + of;
+    skip();
+    return peek() == '^' ? "\\Bigl(" + made + "\\Bigr)" : made;
+  }
+
+  std::string dots(const std::string& of) {
+    const std::size_t count = primes();
     if (count == 0) return of;
     return std::string(count > 1 ? "\\ddot{" : "\\dot{") + of + "}";
   }

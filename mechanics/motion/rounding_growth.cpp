@@ -43,6 +43,9 @@ struct Sizes {
 struct End {
   State state;
   long struck = 0;  ///< the number of that impact; 0: none
+  /// Of a motion that begins on contacts, the first state that no contact holds, and the impacts before it.
+  std::optional<State> apart = {};
+  long impacts_before = 0;
 };
 
 /// The first impact right at the end of a motion.
@@ -55,6 +58,11 @@ const MotionEvent* impact_at_end(const std::vector<MotionEvent>& events, const S
   return found == events.end() ? nullptr : &*found;
 }
 
+bool holds_contact(const LagrangianSystem& system, const Arc& arc) {
+  return std::any_of(arc.persist.begin(), arc.persist.end(),
+                     [&](Index a) { return !system.constraints()[static_cast<std::size_t>(a)].two_sided; });
+}
+
 /// The end of the motion from there; nothing where it has another one. `struck`: the impact of this number is
 /// the one at the end, in the motion beside which this is; 0: there is none.
 std::optional<End> end_of(const LagrangianSystem& system, const State& start, const MotionOptions& options,
@@ -63,7 +71,14 @@ std::optional<End> end_of(const LagrangianSystem& system, const State& start, co
     Motion motion(system, start, options);
     End end;
     std::optional<Vector> before;
-    while (motion.advance(until)) {
+    bool any_held = false;
+    for (long so_far = 0; motion.advance(until); so_far = motion.record().impacts) {
+      const bool are_held = holds_contact(system, motion.arc());
+      if (any_held && !are_held && !end.apart) {
+        end.apart = motion.arc().state(0.5 * motion.arc().length);
+        end.impacts_before = so_far;
+      }
+      any_held = any_held || (are_held && so_far == 0);
       const long impacts = motion.record().impacts;
       const MotionEvent* at_end = impact_at_end(motion.events(), start, until);
       if (struck > 0 && impacts == struck) {
@@ -88,18 +103,10 @@ std::optional<End> end_of(const LagrangianSystem& system, const State& start, co
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, const State& start,
-                                              const MotionOptions& options, const Motion& ended, Index most) {
-  Sizes sizes{start.q.cwiseAbs(), start.v.cwiseAbs()};
-  sizes.take(ended.state());
-  MotionOptions beside = options;
-  beside.step_limit =
-      std::min(options.step_limit, most_steps_of_ended * ended.record().steps + steps_besides);
-  End end{ended.state()};
-  if (const auto again = end_of(system, start, beside, end.state.t, 0, sizes))
-    if (ended.record().impacts > 0) end = *again;
+/// What roundings of `start` have become at the end of the motion from there.
+std::optional<RoundingGrowth> grown(const LagrangianSystem& system, const State& start,
+                                    const MotionOptions& options, const End& end, long struck, Sizes sizes,
+                                    Index most) {
   const Sizes on_the_way = sizes;
   unsigned numbers = 0;
   State other = start;
@@ -116,7 +123,7 @@ std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, co
     unsigned number = 0;
     move_by_a_rounding(other.q, on_the_way.q, k, number);
     move_by_a_rounding(other.v, on_the_way.v, k, number);
-    const std::optional<End> then = end_of(system, other, beside, end.state.t, end.struck, sizes);
+    const std::optional<End> then = end_of(system, other, options, end.state.t, struck, sizes);
     if (!then) continue;
     ++followed;
     change_q = change_q.cwiseMax((then->state.q - end.state.q).cwiseAbs());
@@ -136,6 +143,32 @@ std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, co
     look(i, true, change_v[i], sizes.v[i], dv + dq * rate);
   }
   if (followed == order) found.bound_over_change = std::sqrt(static_cast<double>(numbers));
+  return found;
+}
+
+}  // namespace
+
+std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, const State& start,
+                                              const MotionOptions& options, const Motion& ended, Index most) {
+  Sizes sizes{start.q.cwiseAbs(), start.v.cwiseAbs()};
+  sizes.take(ended.state());
+  MotionOptions beside = options;
+  beside.step_limit =
+      std::min(options.step_limit, most_steps_of_ended * ended.record().steps + steps_besides);
+  End end{ended.state()};
+  std::optional<State> apart;
+  long impacts_before = 0;
+  if (const auto again = end_of(system, start, beside, end.state.t, 0, sizes)) {
+    apart = again->apart, impacts_before = again->impacts_before;
+    if (ended.record().impacts > 0) end = *again;
+  }
+  auto found = grown(system, start, beside, end, end.struck, sizes, most);
+  // A contact that holds takes up what a rounding of the start has moved.
+  if (apart) {
+    const long struck = end.struck > 0 ? end.struck - impacts_before : 0;
+    const auto later = grown(system, *apart, beside, end, struck, sizes, most);
+    if (later && (!found || later->part > found->part)) found = later;
+  }
   return found;
 }
 

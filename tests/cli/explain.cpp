@@ -149,6 +149,18 @@ TEST_CASE("every problem of the library is explained in every form, with the exi
   }
 }
 
+TEST_CASE("the derivative of parentheses can be read in LaTeX") {
+  const Folder folder;
+  const std::string file =
+      folder.write("a.toml",
+                   "[system]\ncoordinates = [\"a\"]\nkinetic = \"((2*sin(a))'^2 + (3*cos(a))'*a')/2\"\n"
+                   "[state]\nposition = { a = 0.1 }\n");
+  const std::string text = run({"explain", "--latex", file}).out;
+  CHECK(text.find("\\Bigl(\\frac{\\mathrm{d}}{\\mathrm{d}t}(2 \\, \\sin(a))\\Bigr)^{2}") !=
+        std::string::npos);
+  CHECK(text.find(" + \\frac{\\mathrm{d}}{\\mathrm{d}t}(3 \\, \\cos(a)) \\, \\dot{a}") != std::string::npos);
+}
+
 TEST_CASE("columns of a decomposition are columns in every form") {
   const Folder folder;
   const std::string file = folder.write("a.toml", "[decomposition]\nf = \"norm1()\"\nz = [3, 1, -2]\n");

@@ -48,6 +48,17 @@ TEST_CASE("no rounding grows in an oscillation, in rest after bounces, and in nu
   CHECK(tiny->part == 0);
 }
 
+TEST_CASE("what impacts make of a rounding is told of a motion that begins on the table that throws it") {
+  // Held, the ball takes up what is moved at the start; from the flight on it is as if begun there.
+  SystemText text{{"y"}, "m/2*y'^2", "m*g*y", {}, {}, {}, {}};
+  text.parameters = {{"m", "0.2"}, {"g", "9.81"}, {"A", "0.003"}, {"w", "2*pi*20"}};
+  text.constraints = {{"table", "y >= A*sin(w*t)"}};
+  const MotionOptions options = restitution(text, 0.9);
+  const auto found = growth(text, state({0}, {0.003 * 2 * M_PI * 20}), 5, options);
+  REQUIRE(found);
+  CHECK(found->part > 1e-4);
+}
+
 TEST_CASE("of a chaotic motion no digit is left after a minute") {
   const SystemText pendulum{
       {"a", "b"}, "a'^2 + b'^2/2 + a'*b'*cos(a - b)", "-9.81*(2*cos(a) + cos(b))", {}, {}, {}, {}};
