@@ -240,9 +240,9 @@ void Motion::EventDriven::fill_next() {
     const auto which = static_cast<std::size_t>(one.which);
     if (one.of == Zero::Of::multiplier && is_weak_[which]) continue;
     // A quotient that is far from its pole is nothing beside a number it is compared with, but comes near.
-    const bool may_jump = (one.of == Zero::Of::branch && expansion_.argument_may_jump(which)) ||
-                          (one.of == Zero::Of::constraint && expansion_.constraint_may_jump(one.which));
-    const std::span<const double> c(one.c), seen = may_jump && c.size() > 1 ? c.subspan(1) : c;
+    const bool hides = (one.of == Zero::Of::branch && expansion_.argument_may_hide(which)) ||
+                       (one.of == Zero::Of::constraint && expansion_.constraint_may_hide(one.which));
+    const std::span<const double> c(one.c), seen = hides && c.size() > 1 ? c.subspan(1) : c;
     const double length = std::min(trusted_length(c, tolerance), trusted_length(seen, tolerance));
     step_ahead_ = std::min(step_ahead_, std::max(length, rounding_of_time(0)));
   }

@@ -38,14 +38,15 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
       magnitude_(series_) {
   convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
   const expression::Tape& tape = equations_.tape;
-  const std::vector<bool> may_jump = nodes_that_may_jump(tape);
+  const std::vector<bool> may_jump = nodes_that_may_jump(tape), of_quotients = nodes_of_quotients(tape);
   std::vector<bool> is_in_argument(tape.size());
   for (const Switch& one : steps_.switches) {
     const NodeId a = tape.a(one.node), b = compares(tape, one.node) ? tape.b(one.node) : a;
-    may_jump_.push_back(may_jump[a] || may_jump[b]);
+    may_jump_ = may_jump_ || may_jump[a] || may_jump[b];
+    may_hide_.push_back(of_quotients[a] || of_quotients[b]);
     is_in_argument[a] = is_in_argument[b] = true;
   }
-  for (const Slot f : equations_.constraint) may_jump_.push_back(may_jump[equations_.program.node(f)]);
+  for (const Slot f : equations_.constraint) may_hide_.push_back(of_quotients[equations_.program.node(f)]);
   for (NodeId node = static_cast<NodeId>(tape.size()); node-- > 0;) {
     const int count = is_in_argument[node] ? expression::arity(tape.operation(node)) : 0;
     if (count > 0) is_in_argument[tape.a(node)] = true;

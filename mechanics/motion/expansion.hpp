@@ -171,13 +171,10 @@ class Expansion {
   /// The same of the argument itself, at a state.
   double rounding_of_argument(std::size_t k);
   /// Whether one of the arguments may jump, as at a pole, or have a kink, of which its series do not tell.
-  bool may_jump() const {
-    return std::find(may_jump_.begin(), may_jump_.begin() + static_cast<std::ptrdiff_t>(switches()), true) !=
-           may_jump_.begin() + static_cast<std::ptrdiff_t>(switches());
-  }
-  /// Whether that argument may, or that f.
-  bool argument_may_jump(std::size_t k) const { return may_jump_[k]; }
-  bool constraint_may_jump(Index a) const { return may_jump_[switches() + index(a)]; }
+  bool may_jump() const { return may_jump_; }
+  /// Whether that argument, or that f, has a quotient that may be nothing beside a number far from its pole.
+  bool argument_may_hide(std::size_t k) const { return may_hide_[k]; }
+  bool constraint_may_hide(Index a) const { return may_hide_[switches() + index(a)]; }
   /// Whether both arguments of an atan2 are 0 but for rounding at a state, so that nothing tells the angle,
   /// and with it a branch.
   bool has_open_angle();
@@ -257,7 +254,8 @@ class Expansion {
   std::vector<double> f_;       // likewise
   TaylorMagnitude magnitude_;   // while it is open who persists
   bool magnitude_is_begun_ = false;
-  std::vector<bool> may_jump_;  // by switch, and by constraint after them
+  bool may_jump_ = false;       // an argument of a switch
+  std::vector<bool> may_hide_;  // by switch, and by constraint after them
   std::vector<std::pair<expression::Slot, expression::Slot>> choosing_angles_;  // y, x of each atan2 in them
   std::vector<double> fastest_;  // by variable: the velocities that the motion has had
   int magnitudes_found_ = 0;     // orders of the question
