@@ -10,8 +10,7 @@ BranchRange branch_range(const std::string& text) {
     throw convex::InvalidInput("--over " + text +
                                ": no range; write --over \"w=1:0.01:3\", a parameter, first, step, last");
   SweepRange range = parse_sweep_range(text, 1e6);
-  const double step = range.values.size() > 1 ? range.values[1] - range.values[0] : 1;
-  return {range.key, range.values.front(), step, range.values.back(), std::move(range.values)};
+  return {range.key, range.values.front(), range.step, range.values.back(), std::move(range.values)};
 }
 
 }  // namespace cli::inline commands

@@ -241,8 +241,9 @@ void FollowedBranch::row(const Station& at, BranchEvent event) {
 
 void FollowedBranch::begin(const Station& first) {
   BranchEvent event = BranchEvent::none;
-  if (const auto fold = mechanics::find_turning_point(family(), first.value, first.orbit))
-    if (std::abs(fold->value - first.value) <= at_fold * std::abs(range_.step)) event = BranchEvent::fold;
+  const double step = std::abs(range_.step);
+  if (const auto fold = mechanics::find_turning_point(family(), first.value, first.orbit, step))
+    if (std::abs(fold->value - first.value) <= at_fold * step) event = BranchEvent::fold;
   row(first, event);
   if (const long fewest = periods_of(first); fewest < options_.periods)
     remarks_.push_back(

@@ -33,7 +33,7 @@ std::pair<FollowedBranch::Station, double> FollowedBranch::approach(double beyon
 
 bool FollowedBranch::turn(double beyond) {
   const auto [near, none] = approach(beyond);
-  fold_ = mechanics::find_turning_point(family(), near.value, near.orbit);
+  fold_ = mechanics::find_turning_point(family(), near.value, near.orbit, std::abs(range_.step));
   const double apart = fold_ ? std::abs(fold_->value - none) : 0;
   if (!fold_ || apart > std::abs(none - near.value) + near_fold * std::abs(range_.step)) return false;
   const Station& last = trail_[trail_.size() - 2];

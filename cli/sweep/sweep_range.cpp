@@ -56,6 +56,7 @@ SweepRange parse_sweep_range(const std::string& text, double most, double least)
   const Fraction first = number(bounds[0], text), step = number(bounds[1], text),
                  last = number(bounds[2], text);
   if (convex::sign(step) == 0) refuse_range(text, "the step is 0; give another");
+  range.step = convex::nearest_double(step);
   const Fraction steps = (last - first) / step;
   const double count = std::floor(convex::nearest_double(steps));
   if (convex::sign(steps) < 0) refuse_range(text, "the step leads away from the last value; change its sign");

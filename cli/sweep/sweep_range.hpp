@@ -10,6 +10,7 @@ struct SweepRange {
   std::string key;
   std::vector<double> values;  ///< in the order given
   bool is_range = false;       ///< first:step:last
+  double step = 0;             ///< of a range
 };
 
 inline constexpr double most_values = 1e9;

@@ -37,9 +37,6 @@ constexpr double near_start = 1e-2;
 /// Error of the derivative by the variational equations, relative to its largest norm on the way.
 constexpr double derivative_error = 1e-12;
 
-/// A motion with so many times the steps of the guess, and some, leads to no orbit near it.
-constexpr long far_steps = 8, some_steps = 100;
-
 /// A free period is looked for within this factor of the guess: where there is no orbit, as beyond a fold,
 /// Newton's method leads to flights without end.
 constexpr double farthest_period = 4;
@@ -157,8 +154,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
     return orbit;
   }
   note_passage(flight, system, orbit);
-  near.motion.step_limit =
-      std::min(question.motion.step_limit, far_steps * static_cast<long>(flight.pieces.size()) + some_steps);
+  near = few_steps(question, flight);
   Vector miss = map.miss(flight, x);
   const KeptEnergy energy(system, question, orbit.start);
   double energy_scale = 1;  // how much the energy changes as far as the motion goes

@@ -32,6 +32,13 @@ std::vector<MotionEvent> Flight::events() const {
   return all;
 }
 
+OrbitQuestion few_steps(OrbitQuestion question, const Flight& flight) {
+  constexpr long times = 8, some = 100;
+  question.motion.step_limit =
+      std::min(question.motion.step_limit, times * static_cast<long>(flight.pieces.size()) + some);
+  return question;
+}
+
 Vector as_one(const State& state) {
   Vector x(state.q.size() + state.v.size());
   x << state.q, state.v;

@@ -17,6 +17,10 @@ struct Flight {
   std::vector<MotionEvent> events() const;
 };
 
+/// The question for the motions that Newton's method tries near a flight: one with several times its steps,
+/// and some, leads to no orbit near it, and may go on for as long as it likes.
+OrbitQuestion few_steps(OrbitQuestion question, const Flight& flight);
+
 /// q and v, one after the other.
 Vector as_one(const State& state);
 

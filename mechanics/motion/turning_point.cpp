@@ -175,11 +175,17 @@ Phase phase_at(const Look& at) { return {at.flight.rate, at.place.x}; }
 
 }  // namespace
 
-std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double value, const Orbit& near) {
-  const double t = near.start.t;
+std::optional<TurningPoint> find_turning_point(const OrbitFamily& orbits, double value, const Orbit& near,
+                                               double reach) {
+  const double t = near.start.t, first = value;
   const Place start{as_one(near.start), near.period};
   Look at;
-  if (!look(family, value, t, start, {Vector::Zero(start.x.size()), start.x}, at)) return std::nullopt;
+  if (!look(orbits, value, t, start, {Vector::Zero(start.x.size()), start.x}, at)) return std::nullopt;
+  const OrbitFamily family{orbits.system,
+                           [&orbits, flight = at.flight](const LagrangianSystem& system, double p) {
+                             return few_steps(orbits.question(system, p), flight);
+                           },
+                           orbits.range};
   if (at.question.is_free && may_keep_energy(*at.system)) return std::nullopt;
   const Phase phase = phase_at(at);
   auto J = jacobian(at, phase);
@@ -229,7 +235,8 @@ std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double
     const Place place = at.beside(step);
     const double moved = std::abs(step[size]);
     value += step[size];
-    if (!std::isfinite(value) || !look(family, value, t, place, phase, at)) return std::nullopt;
+    // Where there is no fold the parameter may double with each step, and the motions get ever longer.
+    if (!(std::abs(value - first) <= reach) || !look(family, value, t, place, phase, at)) return std::nullopt;
     J = jacobian(at, phase);
     if (!J || J->rows() != size) return std::nullopt;
     const bool is_settled = moved <= settled_value * size_of(value, family);

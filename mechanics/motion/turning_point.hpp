@@ -24,10 +24,12 @@ struct TurningPoint {
 /// Newton's method on the extended system map(x, p) = x, g(x, p) = 0, where g is the last entry of the
 /// solution of [J b; cᵀ 0] (v; g) = (0; 1), J = ∂map/∂x - 1, which is 0 where J is singular (Griewank and
 /// Reddien 1984; Govaerts 2000, section 4.1). J is exact; derivatives of J and by p, which only speed it up,
-/// are differences. near: an orbit at `value`. Nothing where it does not arrive, or p is known to less than
-/// ten digits. A free period T is one unknown more, and the phase one equation more, J = [∂map/∂x - 1, x';
-/// x'ᵀ, 0]; nothing then for orbits that come in families by their energy.
-std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double value, const Orbit& near);
+/// are differences. near: an orbit at `value`. Nothing where it does not arrive, leads further than `reach`
+/// from that value, as where there is no fold, or p is known to less than ten digits. A free period T is one
+/// unknown more, and the phase one equation more, J = [∂map/∂x - 1, x'; x'ᵀ, 0]; nothing then for orbits that
+/// come in families by their energy.
+std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double value, const Orbit& near,
+                                               double reach);
 
 /// The orbit with along·(x - x of the fold) = distance, at whatever value of the parameter: on one side of
 /// the fold or the other by the sign of the distance.

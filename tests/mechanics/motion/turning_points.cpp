@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -51,7 +52,7 @@ TEST_CASE("the symmetric orbit of the impact pair folds where its two phases mee
   const Orbit near = find_orbit(*made, start, family.question(*made, A));
   REQUIRE(near.is_found);
   REQUIRE(std::abs(near.start.v[0] - speed) <= 1e-11);
-  const auto fold = find_turning_point(family, A, near);
+  const auto fold = find_turning_point(family, A, near, family.range);
   REQUIRE(fold);
   CHECK(std::abs(fold->value - k / std::sqrt(1 + k * k)) <= 1e-12);
   REQUIRE(fold->orbit.multipliers);
@@ -83,7 +84,7 @@ TEST_CASE("the unit of a parameter does not decide whether a fold is found") {
         find_orbit(*made, {t, Vector{{A * std::sin(phase) + 1 - 0.25 * speed}}, Vector{{speed}}},
                    family.question(*made, A * unit));
     REQUIRE(near.is_found);
-    const auto fold = find_turning_point(family, A * unit, near);
+    const auto fold = find_turning_point(family, A * unit, near, family.range);
     REQUIRE(fold);
     CHECK(std::abs(fold->value / unit - k / std::sqrt(1 + k * k)) <= 1e-12);
   }
@@ -102,7 +103,35 @@ TEST_CASE("a branch that does not turn has no turning point nearby") {
   const auto made = family.system(1.5);
   const Orbit orbit = find_orbit(*made, state({0.5}, {0}), family.question(*made, 1.5));
   REQUIRE(orbit.is_found);
-  CHECK_FALSE(find_turning_point(family, 1.5, orbit));
+  CHECK_FALSE(find_turning_point(family, 1.5, orbit, family.range));
+}
+
+TEST_CASE("a fold is looked for no further from an orbit than it is asked for") {
+  // A forced oscillator before a stop has no fold near c = 0.1: Newton's method doubled c at each step, and
+  // followed motions of ever more impacts.
+  double farthest = 0;
+  const OrbitFamily family{[&](double c) {
+                             farthest = std::max(farthest, c);
+                             return system({{"x"},
+                                            "x'^2/2",
+                                            "x^2/2",
+                                            {{"c", digits(c)}},
+                                            {},
+                                            {{"x", "cos(0.9*t) - c*x'"}},
+                                            {{"stop", "x <= 0.5"}}});
+                           },
+                           [](const LagrangianSystem&, double) {
+                             OrbitQuestion question;
+                             question.motion.restitution = Vector{{0.7}};
+                             question.period = 2 * std::acos(-1.0) / 0.9;
+                             return question;
+                           },
+                           1};
+  const auto made = family.system(0.1);
+  const Orbit orbit = find_orbit(*made, state({0}, {0}), family.question(*made, 0.1));
+  REQUIRE(orbit.is_found);
+  CHECK_FALSE(find_turning_point(family, 0.1, orbit, 2));
+  CHECK(farthest <= 2.2);
 }
 
 TEST_CASE("a self-excited circle of free period folds where its two radii meet, and both are beside it") {
@@ -125,7 +154,7 @@ TEST_CASE("a self-excited circle of free period folds where its two radii meet, 
   const auto made = family.system(m);
   const Orbit near = find_orbit(*made, state({1.02 * radius}, {0}), family.question(*made, m));
   REQUIRE(near.is_found);
-  const auto fold = find_turning_point(family, m, near);
+  const auto fold = find_turning_point(family, m, near, family.range);
   REQUIRE(fold);
   CHECK(std::abs(fold->value + 0.25) <= 1e-10);
   CHECK(std::abs(fold->orbit.period - 2 * std::acos(-1.0)) <= 1e-9);
