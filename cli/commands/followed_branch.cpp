@@ -170,7 +170,8 @@ bool FollowedBranch::follows(const Station& next) const {
   const double usual = distance(last.orbit.start, before.orbit.start) *
                        std::abs((next.value - last.value) / (last.value - before.value));
   constexpr double factor = 4, least = 1e-6;  // 2.4 into a fold
-  const double size = std::hypot(last.orbit.start.q.norm(), last.orbit.start.v.norm());
+  // An orbit may begin at 0: what is little beside how far it goes, not beside its start, is rounding.
+  const double size = last.orbit.largest.norm();
   const double away = distance(next.orbit.start, last.orbit.start);
   if (away <= least * size) return true;
   const double onward =  // a branch does not turn about between two values

@@ -102,7 +102,7 @@ std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station
   }
   // A branch is one curve: what jumps between two values that are one but for rounding is not an event of it.
   const double away = apart(a.orbit.start, b.orbit.start);
-  is_lost_ = is_located && away > jump * std::hypot(b.orbit.start.q.norm(), b.orbit.start.v.norm());
+  is_lost_ = is_located && away > jump * b.orbit.largest.norm();
   if (is_lost_) return std::nullopt;
   constexpr double near = 1e-3;  // part of a step: else it is not known well enough for a row
   if (std::abs(b.value - a.value) > near * step) return std::nullopt;

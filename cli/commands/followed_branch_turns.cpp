@@ -77,7 +77,7 @@ bool FollowedBranch::begin_behind_grazing(const Station& at, std::size_t impacts
                       (to.orbit.start.v - at.orbit.start.v).norm());
   };
   constexpr double shorter = 1.0 / 16, nearer = 0.6, as_one = 1e-9;
-  const double size = std::hypot(at.orbit.start.q.norm(), at.orbit.start.v.norm());
+  const double size = at.orbit.largest.norm();
   for (const double part : {1e-3, 1e-2, 1e-1})
     for (const double side : {onward, -onward}) {
       const auto two = attempt(at.value + side * part * step, at.orbit.start, at.orbit.period);

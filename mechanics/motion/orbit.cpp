@@ -6,6 +6,7 @@
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
+#include "mechanics/assembly.hpp"
 #include "mechanics/motion/closed_impacts.hpp"
 #include "mechanics/motion/first_return.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
@@ -130,6 +131,22 @@ bool is_at_rest(const Flight& flight, const Vector& x, const Vector& miss) {
   for (const FlightPiece& piece : flight.pieces) way = way.cwiseMax((as_one(piece.after) - x).cwiseAbs());
   const Index n = x.size() / 2;
   return way.head(n).maxCoeff() <= farther * miss.head(n).cwiseAbs().maxCoeff();
+}
+
+/// The guess, or where it lies behind a one-sided constraint the nearest state that does not: orbits on a
+/// contact that moves with a parameter lead behind it at the next value.
+State not_penetrated(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
+  const ConstraintRates rates = system.constraint_rates(guess);
+  const Vector& given = question.motion.contact_tolerance;
+  bool is_penetrated = false;
+  for (Index a = 0; a < rates.f.size(); ++a) {
+    const double tolerance = given.size() == 0 ? default_contact_tolerance : given[a];
+    is_penetrated = is_penetrated || (!system.constraints()[static_cast<std::size_t>(a)].two_sided &&
+                                      rates.f[a] < -tolerance * rates.f_scale[a]);
+  }
+  if (!is_penetrated) return guess;
+  const Assembly nearest = assemble(system, guess, {});
+  return nearest.status == AssemblyStatus::solved ? nearest.state : guess;
 }
 
 /// The orbit by the map from the time of the guess.
@@ -269,7 +286,7 @@ std::vector<std::complex<double>> multipliers_across(const Orbit& orbit, bool is
   return others;
 }
 
-Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
+Orbit find_orbit(const LagrangianSystem& system, const State& first, const OrbitQuestion& question) {
   if (question.is_free && system.equations_of_motion().series.steps.uses_time)
     throw convex::InvalidInput(
         "an orbit of unknown period belongs to a system without t, which here stands in the expressions: the "
@@ -278,6 +295,7 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
       question.modulo.size() != 0 && question.modulo.size() != n)
     throw convex::InvalidInput("modulo: " + std::to_string(question.modulo.size()) + " entries; give " +
                                std::to_string(n) + ", one per coordinate, or none");
+  const State guess = not_penetrated(system, first, question);
   Orbit orbit = find_orbit_there(system, guess, question);
   const bool is_hidden =
       !orbit.is_found || (!orbit.multipliers && orbit.start_margin < near_start * orbit.period);

@@ -45,6 +45,7 @@ struct Orbit {
   /// of contacts if there is such a one, and how far the events are from it, and from the start.
   State quiet;
   double quiet_margin = 0, start_margin = 0;
+  Vector largest;  ///< how far each of q and v goes on the way: 2n
   /// By constraint: the least of its gap where it turns around without a contact, and of |df/dt| at its
   /// impacts; infinite where there is none.
   Vector least_gap, least_closing;
@@ -54,8 +55,9 @@ struct Orbit {
 std::vector<std::complex<double>> multipliers_across(const Orbit&, bool is_free);
 
 /// Newton's method on the map over one period, from a guess (shooting), on the states that satisfy the
-/// two-sided constraints in f and df/dt; the guess is brought to them. The derivative of the map, of which
-/// the multipliers are the eigenvalues too, is that of the variational equations with saltation matrices
+/// two-sided constraints in f and df/dt; the guess is brought to them, and out of one-sided constraints that
+/// it penetrates (`assemble`). The derivative of the map, of which the multipliers are the eigenvalues too,
+/// is that of the variational equations with saltation matrices
 /// (`flow_derivative`). Where an event at the start hides the derivative, the map is the one from a quiet
 /// instant of the period, and the orbit is told at the time of the guess again (`orbit_from`). With an
 /// unknown period the start is nearest to the guess across the motion; where the energy is kept, orbits come

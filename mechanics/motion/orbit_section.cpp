@@ -59,6 +59,7 @@ void note_gaps(const Flight& flight, const LagrangianSystem& system, Orbit& orbi
 
 void note_passage(const Flight& flight, const LagrangianSystem& system, Orbit& orbit) {
   note_gaps(flight, system, orbit);
+  orbit.largest = flight.largest;
   const double begin = orbit.start.t, T = orbit.period;
   orbit.quiet = orbit.start;
   orbit.start_margin = orbit.quiet_margin = T;

@@ -57,9 +57,14 @@ Flight PeriodMap::fly(const Vector& x, double period) const {
   flight.largest = x.cwiseAbs();
   try {
     Motion motion(system_, {t_, x.head(n), x.tail(n)}, question_.motion);
+    const auto goes_to = [&](const State& state) {
+      flight.largest = flight.largest.cwiseMax(as_one(state).cwiseAbs());
+    };
     const auto note = [&] {
-      flight.pieces.push_back({motion.arc(), motion.events(), motion.state(), motion.acceleration()});
-      flight.largest = flight.largest.cwiseMax(as_one(motion.state()).cwiseAbs());
+      const Arc& arc = motion.arc();
+      flight.pieces.push_back({arc, motion.events(), motion.state(), motion.acceleration()});
+      if (arc.length > 0) goes_to(arc.state(0.5 * arc.length));  // it may end where it began
+      goes_to(motion.state());
     };
     if (!motion.events().empty()) note();
     while (motion.advance(t_ + period)) note();
