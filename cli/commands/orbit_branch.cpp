@@ -71,7 +71,9 @@ Answer orbit_branch(const std::string& file, const Problem& problem, const mecha
     answer.text = json.end_object().text() + "\n";
   } else {
     answer.text =
-        options.output || options.plot ? fmt::format("{} orbits over {}.\n", found, range.parameter) : table;
+        options.output || options.plot
+            ? fmt::format("{} {} over {}.\n", found, found == 1 ? "orbit" : "orbits", range.parameter)
+            : table;
   }
   answer.warnings = branch.remarks();
   if (!why.empty()) answer.warnings.push_back(why);

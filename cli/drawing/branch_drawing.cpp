@@ -83,6 +83,28 @@ std::string pieces(const std::vector<BranchPoint>& points, bool stable) {
   return text;
 }
 
+/// The axis of the multiplier: logarithmic, on which 0 has no place, or linear around 0 and 1 where there is
+/// nothing else.
+class MultiplierScale {
+ public:
+  explicit MultiplierScale(const std::vector<BranchPoint>& points) {
+    for (const BranchPoint& point : points) {
+      if (!point.orbit.multipliers || point.orbit.multipliers->empty()) continue;
+      const bool is_zero = point.orbit.multipliers->front() == 0.0;
+      has_zeros_ = has_zeros_ || is_zero;
+      is_logarithmic_ = is_logarithmic_ || !is_zero;
+    }
+  }
+  std::string label() const {
+    if (!has_zeros_) return "|multiplier|";
+    return is_logarithmic_ ? "|multiplier|; gaps: 0" : "|multiplier|, all 0";
+  }
+  std::string axis() const { return is_logarithmic_ ? "set logscale y\n" : "set yrange [-0.1:1.1]\n"; }
+
+ private:
+  bool has_zeros_ = false, is_logarithmic_ = false;
+};
+
 struct BranchPanel {
   std::string label;
   std::vector<std::string> names;
@@ -146,9 +168,10 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
       if (point.event == event) made.script += columns(point);
     made.script += "EOD\n";
   }
+  const MultiplierScale scale(points);
   const std::size_t n = coordinates.size(), drawn = std::min(n, most_curves_of_branch);
   BranchPanel q{"q", {}, 2, n - drawn}, v{"q'", {}, 2 + n, n - drawn},
-      multiplier{"|multiplier|", {"largest"}, 2 + 2 * n};
+      multiplier{scale.label(), {"largest"}, 2 + 2 * n};
   for (std::size_t i = 0; i < drawn; ++i) {
     q.names.push_back(coordinates[i]);
     v.names.push_back(coordinates[i] + "'");
@@ -178,9 +201,9 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
     made.script +=
         axes_of_diagram(page, panels[k].label, parameter, is_last, {low->value, high->value}, ranges[k]);
     if (is_last)
-      made.script +=
-          "set logscale y\nset arrow from graph 0, first 1 to graph 1, first 1 nohead lc rgb \"#888888\" lw "
-          "0.8 back\n";
+      made.script += scale.axis() +
+                     "set arrow from graph 0, first 1 to graph 1, first 1 nohead lc rgb \"#888888\" lw "
+                     "0.8 back\n";
     made.script += panel_curves(panels[k], !stable.empty(), !unstable.empty(), events, points.size());
   }
   made.script += "unset multiplot\n";

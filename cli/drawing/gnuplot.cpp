@@ -151,6 +151,8 @@ void draw(const std::string& file, const Drawing& drawing) {
   std::array<char, 512> block{};
   while (std::fgets(block.data(), block.size(), program) != nullptr) said += block.data();
   if (pclose(program) != 0) {
+    std::error_code ignored;  // half a picture is none
+    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
     for (char& c : said)
       if (static_cast<unsigned char>(c) < 0x20U) c = ' ';
     throw InvalidInput(

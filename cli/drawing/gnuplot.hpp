@@ -20,7 +20,8 @@ struct Drawing {
   int height = 0, width = 700;
 };
 
-/// Draws the picture into the file. Throws InvalidInput with gnuplot's words when it does not end well.
+/// Draws the picture into the file. Throws InvalidInput with gnuplot's words when it does not end well; no
+/// part of a picture stays then.
 void draw(const std::string& file, const Drawing&);
 
 }  // namespace cli::inline drawings

@@ -1,7 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "cli/drawing/gnuplot.hpp"
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -56,4 +60,36 @@ TEST_CASE("a branch goes on along a contact that is held, wherever the parameter
   CAPTURE(teeth.err);
   CHECK(teeth.code == 0);
   CHECK(nlohmann::json::parse(teeth.out)["orbits"] == 11);
+}
+
+TEST_CASE("a branch whose multipliers are all 0 is drawn, and says so") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  for (const char* range : {"w=158:0.5:160", "w=158:0.5:158"}) {
+    const std::string picture = folder.path("c.svg");
+    const Outcome outcome = run({"orbit", folder.write("c.toml", follower("0")), "--period", "2*pi/w",
+                                 "--over", range, "--plot", picture});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.starts_with(std::string(range) == "w=158:0.5:158" ? "1 orbit over" : "5 orbits over"));
+    std::stringstream drawn;
+    drawn << std::ifstream(picture).rdbuf();
+    CHECK(drawn.str().find("all 0") != std::string::npos);
+    CHECK(drawn.str().find("</svg>") != std::string::npos);
+  }
+}
+
+TEST_CASE("a picture that gnuplot leaves half drawn does not stay") {
+  const Folder folder;
+  const std::string gnuplot = folder.write(
+      "gnuplot", "#!/bin/sh\necho half > \"$(sed -n 's/^set output \"\\(.*\\)\"$/\\1/p' \"$1\")\"\nexit 1\n");
+  std::filesystem::permissions(gnuplot, std::filesystem::perms::owner_all);
+  const std::string picture = folder.path("c.svg"),
+                    bin = std::filesystem::path(gnuplot).parent_path().string();
+  const Outcome outcome = run_by_shell("PATH=" + bin + ":$PATH exec \"$0\" \"$@\"",
+                                       {"orbit", folder.write("c.toml", follower("0")), "--period", "2*pi/w",
+                                        "--over", "w=158:0.5:160", "--plot", picture});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("gnuplot cannot draw it") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(picture));
 }
