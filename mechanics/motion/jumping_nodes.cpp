@@ -6,10 +6,9 @@ using expression::NodeId;
 
 namespace {
 
-using enum expression::Operation;
-
 /// A quotient or power that may come to its pole.
 bool is_quotient(const expression::Tape& tape, NodeId node) {
+  using enum expression::Operation;
   const expression::Operation operation = tape.operation(node);
   return (operation == divide && !tape.is_constant(tape.b(node))) ||
          (operation == power && !tape.is_constant(tape.a(node)));
@@ -17,6 +16,7 @@ bool is_quotient(const expression::Tape& tape, NodeId node) {
 
 /// What may jump besides, or have a kink: at a pole, where an atan2 does, or at a root of what comes to 0.
 bool is_other(const expression::Tape& tape, NodeId node) {
+  using enum expression::Operation;
   const expression::Operation operation = tape.operation(node);
   return operation == tan || operation == asin || operation == acos || operation == atan2 ||
          operation == sqrt;
