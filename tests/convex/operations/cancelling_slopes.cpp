@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/functions/decomposition.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 /// Proxes of one entry whose slope is what is left of large terms, is taken at a rounded argument, or is any.
@@ -46,7 +47,7 @@ TEST_CASE("the prox of a function whose domain is one point is that point, with 
       "sum(log_sum_exp(), constant(-3)))), sum(translate(indicator(hyperplane([-2], 1050)), [523.25]), "
       "constant(-0.8853314170598544)))",
       1);
-  const Prox found = f.prox(Vector{{-1.75}}, Metric::identity(1));
-  CHECK(found.status == Status::solved);
-  CHECK(found.x[0] == -1.75);
+  const auto split = convex::decompose(f, Vector{{-1.75}}, Metric::identity(1));
+  CHECK(split.status == Status::solved);
+  CHECK(split.x.x[0] == -1.75);
 }

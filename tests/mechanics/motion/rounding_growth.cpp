@@ -54,7 +54,7 @@ TEST_CASE("what impacts make of a rounding is told of a motion that begins on th
   text.parameters = {{"m", "0.2"}, {"g", "9.81"}, {"A", "0.003"}, {"w", "2*pi*20"}};
   text.constraints = {{"table", "y >= A*sin(w*t)"}};
   const MotionOptions options = restitution(text, 0.9);
-  const auto found = growth(text, state({0}, {0.003 * 2 * M_PI * 20}), 5, options);
+  const auto found = growth(text, state({0}, {0.003 * (2 * M_PI * 20)}), 5, options);
   REQUIRE(found);
   CHECK(found->part > 1e-4);
 }
