@@ -15,12 +15,29 @@ constexpr Index large_matrix = 48;
 
 constexpr int thin = Eigen::ComputeThinU | Eigen::ComputeThinV;
 
+/// scale · unit = Z, whose squares are ordinary doubles, and the rotation that takes its columns nearly to
+/// right angles.
+struct Turned {
+  explicit Turned(const Matrix& Z) {
+    const double largest = Z.cwiseAbs().maxCoeff();
+    scale = largest > 0 && std::isfinite(largest) ? std::exp2(std::ilogb(largest)) : 1;
+    unit = Z / scale;
+    const SymmetricEigen eigen(unit.transpose() * unit);
+    turn = eigen.found ? Matrix(eigen.vectors.rowwise().reverse()) : Matrix::Identity(Z.cols(), Z.cols());
+  }
+
+  double scale;
+  Matrix unit, turn;
+};
+
+/// Z or its transpose, whichever has no more columns than rows.
+Matrix made_tall(const Matrix& Z) { return Z.cols() > Z.rows() ? Matrix(Z.transpose()) : Z; }
+
 }  // namespace
 
 SingularValues::SingularValues(const Matrix& Z) : U(Z.rows(), 0), V(Z.cols(), 0), sigma(0) {
   if (Z.size() == 0) return;
-  const bool is_wide = Z.cols() > Z.rows();
-  const Matrix tall = is_wide ? Matrix(Z.transpose()) : Z;
+  const Matrix tall = made_tall(Z);
   const Index n = tall.cols();
   if (n < large_matrix) {
     const Eigen::JacobiSVD<Matrix> svd(tall, thin);
@@ -28,22 +45,22 @@ SingularValues::SingularValues(const Matrix& Z) : U(Z.rows(), 0), V(Z.cols(), 0)
     V = svd.matrixV();
     sigma = svd.singularValues();
   } else {
-    const double largest = tall.cwiseAbs().maxCoeff();
-    const double scale = largest > 0 && std::isfinite(largest) ? std::exp2(std::ilogb(largest)) : 1;
-    const Matrix unit = tall / scale;  // squares are ordinary doubles
-    const SymmetricEigen eigen(unit.transpose() * unit);
-    const Matrix turn = eigen.found ? Matrix(eigen.vectors.rowwise().reverse()) : Matrix::Identity(n, n);
-    const Householder factor(unit * turn);
+    const Turned turned(tall);
+    const Householder factor(turned.unit * turned.turn);
     const Eigen::JacobiSVD<Matrix> svd(factor.R(), thin);
     U = factor.Q(n) * svd.matrixU();
-    V = turn * svd.matrixV();
-    sigma = scale * svd.singularValues();
+    V = turned.turn * svd.matrixV();
+    sigma = turned.scale * svd.singularValues();
   }
-  if (is_wide) U.swap(V);
+  if (Z.cols() > Z.rows()) U.swap(V);
 }
 
-Vector singular_values_by_rotations(const Matrix& Z) { return Eigen::JacobiSVD<Matrix>(Z).singularValues(); }
-
-Vector singular_values(const Matrix& Z) { return SingularValues(Z).sigma; }
+Vector singular_values(const Matrix& Z) {
+  if (Z.size() == 0) return Vector(0);
+  const Matrix tall = made_tall(Z);
+  if (tall.cols() < large_matrix) return Eigen::JacobiSVD<Matrix>(tall).singularValues();
+  const Turned turned(tall);
+  return turned.scale * Eigen::JacobiSVD<Matrix>(Householder(turned.unit * turned.turn).R()).singularValues();
+}
 
 }  // namespace convex::linear_algebra

@@ -13,9 +13,6 @@ struct SingularValues {
   Vector sigma;
 };
 
-/// The singular values by rotations (one-sided Jacobi), in decreasing order.
-Vector singular_values_by_rotations(const Matrix& Z);
-
 /// The singular values, in decreasing order.
 Vector singular_values(const Matrix& Z);
 

@@ -9,6 +9,7 @@
 #include "convex/linear_quadratic/polish.hpp"
 #include "convex/linear_quadratic/stationarity.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/automatic.hpp"
 
 namespace convex::linear_quadratic {
 namespace {
@@ -53,6 +54,15 @@ ConstraintRows constraint_rows(const SparseRows& G) {
   return ConstraintRows(G);
 }
 
+/// The rows that the answer rests on, and where a method does not tell a basis of them those that press.
+std::vector<Index> pressing_rows(const Solution& solution) {
+  std::vector<Index> rows = solution.basis;
+  if (rows.empty())
+    for (Index a = 0; a < solution.lambda.size(); ++a)
+      if (solution.lambda[a] != 0) rows.push_back(a);
+  return rows;
+}
+
 class ProximalPoint {
  public:
   ProximalPoint(const LinearQuadratic& f, const Metric& W, const Vector& z)
@@ -82,7 +92,7 @@ class ProximalPoint {
         if (solution.status == Status::infeasible) point_.defect = Defect::empty_domain;
         return point_;
       }
-      guess = solution.basis;
+      guess = pressing_rows(solution);
       if (settled(solution)) return finished(solution);
       if (point_.rounds == patient_rounds && soft_.any) {
         point_.ray = descent_ray(f_);
@@ -138,7 +148,9 @@ class ProximalPoint {
     rounded_off_ = pull.hi - problem_.z + pull.lo;
     // Rounds after the first have derived data, which fractions would take at their word.
     const bool is_the_program = !soft_.any && f_.polyhedral();
-    Solution solution = active_set(problem_, {.limit = is_the_program ? 1.0 : 0.0}, guess);
+    const Accuracy accuracy{.reduce = false, .limit = is_the_program ? 1.0 : 0.0};
+    // Many sparse variables are first told apart by a method that need not go from row to row.
+    Solution solution = guess.empty() ? automatic(problem_, accuracy) : active_set(problem_, accuracy, guess);
     round_scale_ = std::max(solution.acceleration_norm, solution.force_norm);
     rough_ = !(solution.error_bound <= rough * round_scale_);
     return solution;

@@ -172,7 +172,7 @@ std::optional<ImageMetric> image_metric(const Metric& W, const Matrix& A) {
   }
 
   // Rows of any length may be independent: the singular values are those of unit rows.
-  const Vector sigma = linear_algebra::singular_values_by_rotations(unit);
+  const Vector sigma = linear_algebra::singular_values(unit);
   const double condition = sigma[0] / sigma[m - 1];
   if (!(sigma[m - 1] > smallest_independent * sigma[0])) return std::nullopt;
   Matrix R_inverse = Matrix::Identity(m, m);

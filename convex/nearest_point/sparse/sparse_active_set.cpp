@@ -74,6 +74,7 @@ class SparseActiveSet {
       zero_part_ = 0;
       if (end == InteriorPointStart::End::stalled || end == InteriorPointStart::End::unbounded) break;
     }
+    if (start.q().size() == problem_.dimension()) take_over(start);  // exchanges led away from its rows
     return gave_up();
   }
 
@@ -87,10 +88,13 @@ class SparseActiveSet {
   }
 
  private:
+  /// With the rows that looked active at last: another method starts from them.
   Solution gave_up() const {
     Solution solution;
     solution.method = method;
     solution.steps = steps_;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (active_[static_cast<std::size_t>(a)]) solution.basis.push_back(a);
     solution.farkas = Vector::Zero(problem_.rows());
     return solution;
   }
