@@ -32,8 +32,8 @@ class LinearAtom final : public Atom {
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return z - slope_.cwiseQuotient(d);
   }
-  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
-    return Matrix::Identity(z.size(), z.size());
+  Jacobian prox_jacobian(const Vector& z, const Vector&) const override {
+    return Jacobian::identity(z.size());
   }
   std::optional<QuadraticForm> quadratic_form(Index n) const override {
     return QuadraticForm{SparseMatrix(n, n), slope_, 0};
@@ -62,7 +62,7 @@ class FormAtom final : public Atom {
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return sum(d).solve(d.cwiseProduct(z) - form_.c);
   }
-  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector&, const Vector& d) const override {
     return sum(d).solve_columns(d.asDiagonal());
   }
   std::optional<QuadraticForm> quadratic_form(Index) const override { return form_; }
@@ -90,7 +90,7 @@ class HalfSquareAtom final : public Atom {
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return (d.array() / (1 + d.array()) * z.array()).matrix();
   }
-  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector&, const Vector& d) const override {
     return (d.array() / (1 + d.array())).matrix().asDiagonal();
   }
   std::optional<QuadraticForm> quadratic_form(Index n) const override {
@@ -118,8 +118,8 @@ class PointAtom final : public Atom {
     return Vector::Zero(x.size());
   }
   Vector prox_diagonal(const Vector&, const Vector&) const override { return point_; }
-  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
-    return Matrix::Zero(z.size(), z.size());
+  Jacobian prox_jacobian(const Vector& z, const Vector&) const override {
+    return Jacobian(Vector(Vector::Zero(z.size())));
   }
 
  private:
@@ -153,7 +153,7 @@ class OrthantAtom final : public Atom {
   Vector prox_diagonal(const Vector& z, const Vector&) const override {
     return (sign_ * (sign_ * z.array()).cwiseMax(0.0)).matrix();
   }
-  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector&) const override {
     return (sign_ * z.array() > 0).cast<double>().matrix().asDiagonal();
   }
 

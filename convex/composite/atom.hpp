@@ -1,5 +1,6 @@
 #pragma once
 
+#include "convex/composite/jacobian.hpp"
 #include "convex/gamma0/node.hpp"
 
 namespace convex::inline composite {
@@ -40,7 +41,7 @@ class Atom : public FunctionNode {
   virtual std::optional<Prox> prox_general(const Vector& z, const Metric& W) const;
   /// An element of the generalised Jacobian (Clarke 1983) of z -> prox_diagonal(z, d) at z: n×n,
   /// with D·J symmetric positive semidefinite.
-  virtual Matrix prox_jacobian(const Vector& z, const Vector& d) const = 0;
+  virtual Jacobian prox_jacobian(const Vector& z, const Vector& d) const = 0;
 
   /// The size of the data that bound the domain, 0 when none do: what membership is relative to besides the
   /// point.

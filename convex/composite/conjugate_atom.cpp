@@ -27,11 +27,8 @@ class ConjugateAtom final : public Atom {
   }
   Index decomposed_size(Index n) const override { return f_->decomposed_size(n); }
   bool prox_by_conjugate() const override { return true; }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
-    Matrix J = f_->prox_jacobian(d.cwiseProduct(z), d.cwiseInverse());
-    J = -(d.cwiseInverse().asDiagonal() * J * d.asDiagonal());
-    J.diagonal().array() += 1;
-    return J;
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
+    return f_->prox_jacobian(d.cwiseProduct(z), d.cwiseInverse()).of_conjugate(d);
   }
 
  private:

@@ -71,20 +71,15 @@ class EpigraphAtom final : public Atom {
     whole << *v / unit_, -side_;
     return d[0] * mu * whole;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
-    if (inside(z)) return Matrix::Identity(n_ + 1, n_ + 1);
+  Jacobian prox_jacobian(const Vector& z, const Vector&) const override {
+    if (inside(z)) return Jacobian::identity(n_ + 1);
     const double mu = std::max(project(z).mu, smallest(z));
     const Vector x = z.head(n_), inverse = Vector::Constant(n_, unit_ / mu);
     const Vector v = slope_at(f_->prox_diagonal(x, inverse), x, mu);
-    const Matrix J = f_->prox_jacobian(x, inverse);
+    const Jacobian J = f_->prox_jacobian(x, inverse);
     const Vector Jv = J * v;
     const double slope = 1 + v.dot(Jv);
-    Matrix jacobian(n_ + 1, n_ + 1);
-    jacobian.topLeftCorner(n_, n_) = J - Jv / slope * Jv.transpose();
-    jacobian.topRightCorner(n_, 1) = side_ / slope * Jv;
-    jacobian.bottomLeftCorner(1, n_) = side_ / slope * Jv.transpose();
-    jacobian(n_, n_) = 1 - 1 / slope;
-    return jacobian;
+    return J.bordered(Jv, Eigen::Matrix2d{{-1 / slope, side_ / slope}, {side_ / slope, 1 - 1 / slope}});
   }
 
  private:
@@ -115,7 +110,7 @@ class EpigraphAtom final : public Atom {
       WorkLimit::count();
       const Vector inverse = Vector::Constant(n_, unit_ / std::max(mu, smallest(z)));
       const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
-      const Matrix J = f_->prox_jacobian(x, inverse);
+      const Jacobian J = f_->prox_jacobian(x, inverse);
       return {t + mu - f_->value(point) / unit_, 1 + std::max(0.0, v.dot(J * v))};
     };
     const double mu = monotone_root(excess, std::isfinite(above) ? above : z.norm() + 1, smallest(z));

@@ -1,18 +1,24 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "convex/composite/saddle_problem.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
+#include "convex/linear_algebra/pivoted_lu.hpp"
+#include "convex/linear_algebra/sparse_factor.hpp"
 
 namespace convex::inline composite {
 
 /// The second order of a term at t: with J the Jacobian of its prox in D and theta in (0, 1],
 ///   B = J + theta (I - J),  H = D (I - J) B⁻¹,
-/// the Hessian of the term after an envelope of size D/theta. Both are diagonal for separable terms.
+/// the Hessian of the term after an envelope of size D/theta. Of a thin J
+///   B⁻¹ = diag(b_inverse) - (1 - theta) P S Pᵀ,  H = diag(h) - D P S Pᵀ,
+/// P having no columns for separable terms; else both are full.
 struct TermCurvature {
-  bool diagonal = false;
+  bool is_thin = false;
   Vector h, b_inverse;
+  Matrix P, S;
   Matrix H, B_inverse;
 };
 
@@ -37,9 +43,21 @@ class NewtonSystem {
   bool usable() const { return usable_; }
 
  private:
+  /// The matrix as that of many sparse coordinates and a few columns besides, by the formula of Woodbury;
+  /// false where it is none.
+  bool factor_sparse(const Vector& D, const Vector& ridge);
+  void factor_dense(const Vector& D, const Vector& ridge);
+  Vector solve(const Vector& right) const;
+
   const SaddleProblem* problem_;
+  double theta_;
+  Vector scale_;  ///< m: D
   std::vector<TermCurvature> curvature_;
   linear_algebra::Cholesky factor_;
+  std::optional<linear_algebra::SparseFactor> sparse_;
+  Matrix columns_, spread_;  ///< Y, and K⁻¹Y with the sparse part K
+  linear_algebra::PivotedLu small_;
+  Matrix weight_;  ///< E of K + Y E Yᵀ
   bool usable_ = true;
 };
 

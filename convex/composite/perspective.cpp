@@ -88,24 +88,16 @@ class PerspectiveAtom final : public Atom {
     whole << *v, side_ * (f_->value(p) - p.dot(*v));
     return whole;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     const double mu = root(z, d[0]);
-    if (mu <= 0) return Matrix::Zero(n_ + 1, n_ + 1);
+    if (mu <= 0) return Jacobian(Vector(Vector::Zero(n_ + 1)));
     const Vector q = d[0] * z.head(n_), p = at(q, mu);
-    const Matrix J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
-    if (mu <= smallest(d[0] * z.norm())) {  // the point stays on the wall s = 0
-      Matrix jacobian = Matrix::Zero(n_ + 1, n_ + 1);
-      jacobian.topLeftCorner(n_, n_) = J;
-      return jacobian;
-    }
+    const Jacobian J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
+    if (mu <= smallest(d[0] * z.norm()))  // the point stays on the wall s = 0
+      return J.bordered(Vector::Zero(n_), Eigen::Matrix2d::Zero());
     const Vector moved = p - J * p;
     const double square = side_ * side_, slope = 1 + square * std::max(0.0, p.dot(moved));
-    Matrix jacobian(n_ + 1, n_ + 1);
-    jacobian.topLeftCorner(n_, n_) = J + square / slope * moved * moved.transpose();
-    jacobian.topRightCorner(n_, 1) = side_ / slope * moved;
-    jacobian.bottomLeftCorner(1, n_) = side_ / slope * moved.transpose();
-    jacobian(n_, n_) = 1 / slope;
-    return jacobian;
+    return J.bordered(moved, Eigen::Matrix2d{{square / slope, side_ / slope}, {side_ / slope, 1 / slope}});
   }
 
  private:
@@ -126,7 +118,7 @@ class PerspectiveAtom final : public Atom {
       WorkLimit::count();
       const double mu = std::max(at_mu, least);
       const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
-      const Matrix J = f_->prox_jacobian(q / mu, step);
+      const Jacobian J = f_->prox_jacobian(q / mu, step);
       // Far out on a flat part the difference q - mu p is all rounding, where a formula, or a gradient, is
       // not.
       const double moved = std::max(0.0, p.dot(p - J * p));

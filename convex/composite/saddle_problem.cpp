@@ -99,6 +99,12 @@ void set_scales_of_w(SaddleProblem& problem) {
   }
 }
 
+void set_sparse_part(SaddleProblem& problem) {
+  constexpr Index few_of = 8;
+  const bool is_sparse = (problem.G.array() != 0).count() * few_of <= problem.G.size();
+  problem.sparse_G = is_sparse ? SparseMatrix(problem.G.sparseView()) : SparseMatrix();
+}
+
 SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W, const Look& look) {
   const Index size = f.n + f.k;
   SaddleProblem problem;
@@ -133,6 +139,7 @@ SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& 
     problem.m += rows;
   }
   if (problem.Q.size() > 0) problem.G += problem.Q;
+  set_sparse_part(problem);
   problem.M.resize(problem.m, size);
   problem.M.setFromTriplets(entries.begin(), entries.end());
   problem.b.resize(problem.m);

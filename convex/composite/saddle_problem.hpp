@@ -24,8 +24,9 @@ struct SaddleProblem {
   Metric W = Metric::identity(0);
   MetricScales scales;
   Vector z;
-  Matrix G;  ///< the Hessian of the smooth part, blockdiag(W, 0) + Q: (n+k)×(n+k)
-  Matrix Q;  ///< empty when 0
+  Matrix G;               ///< the Hessian of the smooth part, blockdiag(W, 0) + Q: (n+k)×(n+k)
+  SparseMatrix sparse_G;  ///< the same, where most of it is 0; else empty
+  Matrix Q;               ///< empty when 0
   Vector c;
   std::vector<SaddleTerm> terms;
   SparseMatrix M;
@@ -43,6 +44,9 @@ struct SaddleProblem {
 };
 
 SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W, const Look& look = {});
+
+/// sparse_G of G.
+void set_sparse_part(SaddleProblem& problem);
 
 /// R of D, M and Q.
 void set_scales_of_w(SaddleProblem& problem);

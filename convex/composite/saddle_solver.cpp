@@ -185,6 +185,7 @@ bool domains_apart(const GraphForm& f) {
     problem.W = Metric::identity(f.n).scaled(ridge);
     problem.z = centre.xi.head(f.n);
     problem.G.topLeftCorner(f.n, f.n) = ridge * Matrix::Identity(f.n, f.n);
+    set_sparse_part(problem);
     centre.y.setZero();
     const MultiplierStep near = multiplier_step(problem, centre, D, Vector::Constant(f.k, ridge), accurate);
     if (separates(problem, near, D)) return true;

@@ -11,13 +11,16 @@ namespace {
 /// A dt is eliminated where its b is at least this.
 constexpr double pliable = 0.5;
 
+/// Beyond so many rows its elimination would take longer than all steps before.
+constexpr Index most_rows = 256;
+
 }  // namespace
 
 SensitivitySystem::SensitivitySystem(const SaddleProblem& problem, const Vector& t, const Vector& D,
                                      double theta, const Vector& ridge)
     : problem_(&problem) {
   // A step too far out of the range of doubles is no point to ask a Jacobian for.
-  usable_ = t.allFinite();
+  usable_ = t.allFinite() && problem.m <= most_rows;
   if (!usable_) return;
   const Index size = problem.n + problem.k;
   std::vector<Matrix> stiffness;  // by term B, of separable ones the diagonal alone

@@ -35,13 +35,13 @@ class Ball2 : public ConvexSet {
     const Vector x = at_center(from * (radius_ / distance));
     return cancels(x) && is_squared_in_range(distance) ? on_sphere(z, center_) : x;
   }
-  Matrix project_jacobian(const Vector& z, const Vector&) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector&) const override {
     const Index n = z.size();
     const Vector from = from_center(z);
     const double distance = from.stableNorm();
-    if (distance <= radius_) return Matrix::Identity(n, n);
-    const Vector normal = from / distance;
-    return radius_ / distance * (Matrix::Identity(n, n) - normal * normal.transpose());
+    if (distance <= radius_) return Jacobian::identity(n);
+    const double part = radius_ / distance;
+    return {Vector::Constant(n, part), from / distance, Matrix::Constant(1, 1, -part)};
   }
   double support(const Vector& v) const override { return support_value(v).value; }
   /// radius |v| + center·v, in twice the working precision where the two may cancel.

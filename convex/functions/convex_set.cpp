@@ -55,7 +55,9 @@ class SetIndicator : public Atom {
   std::optional<Prox> prox_general(const Vector& z, const Metric& W) const override {
     return S_->project_general(z, W);
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override { return S_->project_jacobian(z, d); }
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
+    return S_->project_jacobian(z, d);
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return S_->indicator_form(n); }
 
  private:
@@ -101,9 +103,8 @@ class SetSupport : public Atom {
     return S_->project(d.cwiseProduct(z), d.cwiseInverse());
   }
   /// The derivative of z - D⁻¹ project(Dz, D⁻¹).
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
-    const Matrix J = S_->project_jacobian(d.cwiseProduct(z), d.cwiseInverse());
-    return Matrix::Identity(z.size(), z.size()) - d.cwiseInverse().asDiagonal() * J * d.asDiagonal();
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
+    return S_->project_jacobian(d.cwiseProduct(z), d.cwiseInverse()).of_conjugate(d);
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return S_->support_form(n); }
 
@@ -126,7 +127,7 @@ class ConeSet : public ConvexSet {
   bool bounded() const override { return false; }
   bool takes_any_diagonal() const override { return K_.any_diagonal; }
   Vector project(const Vector& z, const Vector& d) const override { return K_.project(z, d); }
-  Matrix project_jacobian(const Vector& z, const Vector& d) const override { return K_.jacobian(z, d); }
+  Jacobian project_jacobian(const Vector& z, const Vector& d) const override { return K_.jacobian(z, d); }
   double support(const Vector& v) const override { return support_value(v).value; }
   Value support_value(const Vector& v) const override {
     return indicated(project(v, Vector::Ones(v.size())).stableNorm(), v.stableNorm());

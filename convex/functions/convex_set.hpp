@@ -40,7 +40,7 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   /// argmin sum_i d_i (u_i - z_i)² over S.
   virtual Vector project(const Vector& z, const Vector& d) const = 0;
   /// An element of the generalised Jacobian of z -> project(z, d).
-  virtual Matrix project_jacobian(const Vector& z, const Vector& d) const = 0;
+  virtual Jacobian project_jacobian(const Vector& z, const Vector& d) const = 0;
   /// The indicator at x, with the tolerances relative to |x| + scale(). The distance to the projection
   /// decides.
   virtual Value membership(const Vector& x) const;

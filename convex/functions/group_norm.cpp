@@ -36,13 +36,25 @@ class GroupBall : public ConvexSet {
     });
     return x;
   }
-  Matrix project_jacobian(const Vector& z, const Vector&) const override {
-    Matrix J = Matrix::Zero(z.size(), z.size());
+  Jacobian project_jacobian(const Vector& z, const Vector&) const override {
+    Vector part = Vector::Ones(z.size());
+    std::vector<Vector> normals;  // of the groups beyond the radius
+    std::vector<double> parts;
     each(z.size(), [&](Index first, Index size) {
-      J.block(first, first, size, size) =
-          prox_formulas::proj_ball2_jacobian(z.segment(first, size), radius_, Vector::Zero(size));
+      const double length = prox_formulas::length(z.segment(first, size));
+      if (length <= radius_) return;
+      parts.push_back(radius_ / length);
+      part.segment(first, size).setConstant(parts.back());
+      normals.push_back(Vector::Zero(z.size()));
+      normals.back().segment(first, size) = z.segment(first, size) / length;
     });
-    return J;
+    const auto groups = std::ssize(parts);
+    Matrix U(z.size(), groups), C = Matrix::Zero(groups, groups);
+    for (Index k = 0; k < groups; ++k) {
+      U.col(k) = normals[at(k)];
+      C(k, k) = -parts[at(k)];
+    }
+    return {std::move(part), std::move(U), std::move(C)};
   }
   double support(const Vector& v) const override {
     double sum = 0;

@@ -42,12 +42,15 @@ class Slab : public ConvexSet {
     const Vector x = z - multiplier(z, normal) * normal;
     return x - multiplier(x, normal) * normal;  // what the rounding of a far z left
   }
-  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
-    const Matrix identity = Matrix::Identity(z.size(), z.size());
+  Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
+    const Index n = z.size();
     const Vector normal = a_.cwiseQuotient(d);
     const bool active = two_sided_ ? !a_.isZero(0) : multiplier(z, normal) > 0;
-    if (!active) return identity;
-    return identity - normal * a_.transpose() / a_.dot(normal);
+    if (!active) return Jacobian::identity(n);
+    const double square = a_.dot(normal);
+    if (d.maxCoeff() == d.minCoeff())
+      return {Vector::Ones(n), a_, Matrix::Constant(1, 1, -1 / (d[0] * square))};
+    return Matrix::Identity(n, n) - normal * a_.transpose() / square;
   }
   double support(const Vector& v) const override { return support_value(v).value; }
   Value support_value(const Vector& v) const override {

@@ -82,7 +82,7 @@ struct LogSumExp final : Atom {
   std::optional<Vector> prox_covector(const Vector& x, const Vector&, const Vector&) const override {
     return softmax(x);
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     double level = 0;
     Vector slope;
     const Vector a = level_parts(z, d, level, slope), weight = softmax(a).cwiseProduct(slope);
@@ -178,7 +178,7 @@ struct EntropyOnSimplex final : Atom {
       if (v[i] > 0) covector[i] = std::log(v[i]) + gap / weight;
     return covector;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     Vector slope;
     parts(z, d, slope);
     const Vector rate = slope.cwiseQuotient(d);

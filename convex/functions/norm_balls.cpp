@@ -38,7 +38,7 @@ class Ball1 : public Polytope {
   Vector project(const Vector& z, const Vector& d) const override {
     return equal(d) ? prox_formulas::proj_ball1(z, radius_) : prox_formulas::proj_ball1(z, radius_, d);
   }
-  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
     return prox_formulas::proj_ball1_jacobian(z, radius_, d);
   }
   double support(const Vector& v) const override { return radius_ * v.lpNorm<Eigen::Infinity>(); }
@@ -74,7 +74,7 @@ class Simplex : public Polytope {
   Vector project(const Vector& z, const Vector& d) const override {
     return equal(d) ? prox_formulas::proj_simplex(z, total_) : prox_formulas::proj_simplex(z, total_, d);
   }
-  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
     return prox_formulas::proj_simplex_jacobian(z, total_, d);
   }
   double support(const Vector& v) const override { return total_ * v.maxCoeff(); }
@@ -124,7 +124,7 @@ class CappedSimplex : public Polytope {
     return equal(d) ? prox_formulas::proj_capped_simplex(z, cap_, total_)
                     : prox_formulas::proj_capped_simplex(z, cap_, total_, d);
   }
-  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
     return prox_formulas::proj_capped_simplex_jacobian(z, cap_, total_, d);
   }
   double support(const Vector& v) const override { return maximiser(v)->dot(v); }

@@ -144,7 +144,7 @@ class PiecewiseNode : public Atom {
     for (Index i = 0; i < z.size(); ++i) v[i] = prox_point(piece(i), z[i], d[i]).y;
     return v;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     Vector slope(z.size());
     for (Index i = 0; i < z.size(); ++i) slope[i] = prox_derivative(piece(i), z[i], d[i]).low;
     return slope.asDiagonal();

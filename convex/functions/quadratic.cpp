@@ -76,7 +76,7 @@ class Quadratic : public Atom {
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d), {}).x;
   }
-  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector&, const Vector& d) const override {
     const Matrix D = d.asDiagonal();
     return linear_algebra::Cholesky(Q_ + D).solve_columns(D);
   }
@@ -171,7 +171,7 @@ class DualQuadratic : public Atom {
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d), {}).x;
   }
-  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector&, const Vector& d) const override {
     const Index r = L_.cols();
     const Matrix weighted = L_.transpose() * d.asDiagonal();
     return L_ * linear_algebra::Cholesky(weighted * L_ + Matrix::Identity(r, r)).solve_columns(weighted);

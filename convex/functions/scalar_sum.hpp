@@ -93,7 +93,7 @@ class ScalarSum : public Atom {
     return x;
   }
 
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     Vector slope(z.size());
     for (Index i = 0; i < z.size(); ++i) slope[i] = law_.prox(z[i], d[i], i).slope;
     return slope.asDiagonal();

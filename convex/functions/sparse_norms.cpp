@@ -33,7 +33,7 @@ class LargestEntriesBall : public ConvexSet {
   Vector project(const Vector& z, const Vector&) const override {
     return prox_formulas::proj_largest_ball(z, radius_, k_);
   }
-  Matrix project_jacobian(const Vector& z, const Vector&) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector&) const override {
     return Matrix::Identity(z.size(), z.size()) - prox_formulas::prox_k_support_jacobian(z, radius_, k_);
   }
   double support(const Vector& v) const override { return radius_ * prox_formulas::k_support_norm(v, k_); }

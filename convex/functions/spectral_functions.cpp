@@ -41,7 +41,7 @@ class SpectralBall : public ConvexSet {
   Vector project(const Vector& z, const Vector&) const override {
     return stacked(prox_formulas::proj_spectral_ball(unstacked(z, rows_), radius_));
   }
-  Matrix project_jacobian(const Vector& z, const Vector&) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector&) const override {
     return Matrix::Identity(z.size(), z.size()) -
            prox_formulas::nuclear_norm_prox(unstacked(z, rows_), radius_).jacobian();
   }
@@ -142,7 +142,7 @@ class NegLogDet : public LogDeterminant {
   double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
     return inverse_miss(parts_of(x).symmetric, parts_of(v).symmetric, d[0]);
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     return prox_formulas::log_det_prox(unstacked(z, prox_formulas::order_of_stacked(z)), 1 / d[0]).jacobian();
   }
 };
@@ -173,7 +173,7 @@ class NegLogDetConjugate : public LogDeterminant {
     const auto [V, skew] = parts_of(v);
     return inverse_miss(-parts_of(x).symmetric, -V, d[0]) + skew / std::sqrt(d[0]);
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     const Vector inverse = d.cwiseInverse();
     const Index n = prox_formulas::order_of_stacked(z);
     return Matrix::Identity(z.size(), z.size()) -

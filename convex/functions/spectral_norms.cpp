@@ -54,7 +54,7 @@ class SchattenBall : public ConvexSet {
                Z, [&](const Vector& s) { return prox_formulas::proj_ball_p(s, radius_, q_); })
         .reshaped();
   }
-  Matrix project_jacobian(const Vector& z, const Vector&) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector&) const override {
     const double p = dual_exponent(q_);
     return Matrix::Identity(z.size(), z.size()) -
            prox_formulas::jacobian_of_singular_values(
@@ -131,7 +131,7 @@ class Spectraplex : public ConvexSet {
                 Z, [&](const Vector& l) { return prox_formulas::proj_simplex(l, total_); }))
         .reshaped();
   }
-  Matrix project_jacobian(const Vector& z, const Vector&) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector&) const override {
     const auto phi = [&](const Vector& l) { return prox_formulas::prox_max(l, total_); };
     return Matrix::Identity(z.size(), z.size()) -
            prox_formulas::jacobian_of_eigenvalues(matrix(z), phi, [&](const Vector& l) {

@@ -21,7 +21,7 @@ class DualBall : public ConvexSet {
  public:
   bool bounded() const override { return true; }
   /// The derivative of z - D⁻¹ support_prox(Dz, D⁻¹).
-  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+  Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
     const Vector inverse = d.cwiseInverse();
     const Matrix J = norm_jacobian(d.cwiseProduct(z), inverse);
     return Matrix::Identity(z.size(), z.size()) - inverse.asDiagonal() * J * d.asDiagonal();

@@ -77,7 +77,8 @@ TEST_CASE("the epigraph of the norm is the second-order cone") {
     for (int count = 0; count < 30; ++count) {
       const Vector z = random_vector(generator, 4, size), d = Vector::Ones(4);
       CHECK((set->prox_diagonal(z, d) - SecondOrderCone().prox_diagonal(z, d)).norm() <= 1e-14 * z.norm());
-      CHECK((set->prox_jacobian(z, d) - SecondOrderCone().prox_jacobian(z, d)).norm() <= 1e-12);
+      CHECK((Matrix(set->prox_jacobian(z, d)) - Matrix(SecondOrderCone().prox_jacobian(z, d))).norm() <=
+            1e-12);
     }
 }
 

@@ -60,7 +60,7 @@ class Norm2 final : public Sample {
     const double length = d[0] * z.norm();
     return length <= 1 ? Vector::Zero(z.size()) : Vector((length - 1) / length * z);
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     const Index n = z.size();
     const double length = d[0] * z.norm();
     if (length <= 1) return Matrix::Zero(n, n);
@@ -82,7 +82,7 @@ class Norm1 final : public Sample {
     return z.unaryExpr([](double a) { return a < 0 ? -1.0 : 1.0; })
         .cwiseProduct((z.cwiseAbs() - d.cwiseInverse()).cwiseMax(0.0));
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     return (d.array() * z.array().abs() > 1).cast<double>().matrix().asDiagonal();
   }
 };
@@ -100,7 +100,7 @@ class Box final : public Sample {
   Vector prox_diagonal(const Vector& z, const Vector&) const override {
     return z.cwiseMax(lower_).cwiseMin(upper_);
   }
-  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector&) const override {
     return (z.array() > lower_.array() && z.array() < upper_.array()).cast<double>().matrix().asDiagonal();
   }
 
@@ -130,7 +130,7 @@ class Exponential final : public Sample {
     }
     return x;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     const Vector x = prox_diagonal(z, d);
     return (d.array() / (d.array() + x.array().exp())).matrix().asDiagonal();
   }
@@ -160,7 +160,7 @@ class Entropy final : public Sample {
     }
     return x;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     const Vector x = prox_diagonal(z, d);
     return (d.array() * x.array() / (d.array() * x.array() + 1)).matrix().asDiagonal();
   }
@@ -184,7 +184,7 @@ class SecondOrderCone final : public Sample {
     x << 0.5 * (1 + t / length) * z.head(n), 0.5 * (length + t);
     return x;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector&) const override {
     const Index n = z.size() - 1;
     const double length = z.head(n).norm(), t = z[n];
     if (length <= t) return Matrix::Identity(n + 1, n + 1);
@@ -218,7 +218,7 @@ class LogBarrier final : public Sample {
     }
     return x;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     const Vector x = prox_diagonal(z, d);
     return (d.array() * x.array().square() / (d.array() * x.array().square() + 1)).matrix().asDiagonal();
   }

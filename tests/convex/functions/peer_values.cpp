@@ -208,5 +208,5 @@ TEST_CASE("the derivative of the projection on the second-order cone is the one 
   convex::Matrix expected = 0.5 * convex::Matrix::Identity(5, 5);
   expected.row(4).head(4).setConstant(0.25);
   expected.col(4).head(4).setConstant(0.25);
-  CHECK((atom->prox_jacobian(z, Vector::Ones(5)) - expected).norm() <= 1e-15);
+  CHECK((convex::Matrix(atom->prox_jacobian(z, Vector::Ones(5))) - expected).norm() <= 1e-15);
 }

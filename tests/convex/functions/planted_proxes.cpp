@@ -47,7 +47,7 @@ class WrongPart final : public Atom {
     if (where_ != In::conjugate) x += error.head(std::min(x.size(), entries));
     return x;
   }
-  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+  convex::Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     return right_->prox_jacobian(z, d);
   }
 
