@@ -36,32 +36,40 @@ Restitution read_restitution(const mechanics::Text& constraint, const TomlValue&
 }
 
 SimulateSettings read_simulate_settings(const TomlValue& table) {
-  require_known_keys(require_table(table, "simulate"), "simulate",
-                     {"until", "method", "tolerance", "step", "restitution", "samples", "impact_law"});
+  convex::Mistakes mistakes;
+  mistakes.gather([&] {
+    require_known_keys(require_table(table, "simulate"), "simulate",
+                       {"until", "method", "tolerance", "step", "restitution", "samples", "impact_law"});
+  });
   SimulateSettings settings;
-  if (const TomlValue* until = table.find("until"))
-    settings.until = number_or_expression(*until, "simulate.until");
-  if (const TomlValue* method = table.find("method")) {
-    settings.method = require_string(*method, "simulate.method");
-    settings.method_place = method->place;
-  }
-  if (const TomlValue* tolerance = table.find("tolerance"))
-    settings.tolerance = require_positive(*tolerance, "simulate.tolerance");
-  if (const TomlValue* step = table.find("step")) settings.step = require_positive(*step, "simulate.step");
-  if (const TomlValue* restitution = table.find("restitution")) {
-    if (restitution->kind == TomlValue::Kind::table) {
-      for (const TomlEntry& entry : restitution->table)
+  const auto read = [&](const char* key, const auto& work) {
+    if (const TomlValue* value = table.find(key)) mistakes.gather([&] { work(*value); });
+  };
+  read("until",
+       [&](const TomlValue& until) { settings.until = number_or_expression(until, "simulate.until"); });
+  read("method", [&](const TomlValue& method) {
+    settings.method = require_string(method, "simulate.method");
+    settings.method_place = method.place;
+  });
+  read("tolerance", [&](const TomlValue& tolerance) {
+    settings.tolerance = require_positive(tolerance, "simulate.tolerance");
+  });
+  read("step", [&](const TomlValue& step) { settings.step = require_positive(step, "simulate.step"); });
+  read("restitution", [&](const TomlValue& e) {
+    if (e.kind != TomlValue::Kind::table)
+      return settings.restitutions.push_back(read_restitution({}, e, "simulate.restitution"));
+    for (const TomlEntry& entry : e.table)
+      mistakes.gather([&] {
         settings.restitutions.push_back(read_restitution({entry.key, entry.place}, entry.value,
                                                          "simulate.restitution." + shown(entry.key)));
-    } else {
-      settings.restitutions.push_back(read_restitution({}, *restitution, "simulate.restitution"));
-    }
-  }
-  if (const TomlValue* samples = table.find("samples")) settings.samples = require_samples(*samples);
-  if (const TomlValue* law = table.find("impact_law")) {
-    settings.impact_law = require_string(*law, "simulate.impact_law");
-    settings.impact_law_place = law->place;
-  }
+      });
+  });
+  read("samples", [&](const TomlValue& samples) { settings.samples = require_samples(samples); });
+  read("impact_law", [&](const TomlValue& law) {
+    settings.impact_law = require_string(law, "simulate.impact_law");
+    settings.impact_law_place = law.place;
+  });
+  mistakes.tell();
   return settings;
 }
 

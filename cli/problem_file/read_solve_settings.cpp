@@ -4,25 +4,31 @@
 namespace cli::inline problem_files {
 
 SolveSettings read_solve_settings(const TomlValue& table) {
-  require_known_keys(require_table(table, "solve"), "solve", {"method", "tolerance", "contact_tolerance"});
+  convex::Mistakes mistakes;
+  mistakes.gather([&] {
+    require_known_keys(require_table(table, "solve"), "solve", {"method", "tolerance", "contact_tolerance"});
+  });
   SolveSettings settings;
-  if (const TomlValue* method = table.find("method")) {
-    settings.method = require_string(*method, "solve.method");
-    settings.method_place = method->place;
-  }
+  if (const TomlValue* method = table.find("method"))
+    mistakes.gather([&] {
+      settings.method = require_string(*method, "solve.method");
+      settings.method_place = method->place;
+    });
   if (const TomlValue* tolerance = table.find("tolerance"))
-    settings.tolerance = require_positive(*tolerance, "solve.tolerance");
+    mistakes.gather([&] { settings.tolerance = require_positive(*tolerance, "solve.tolerance"); });
   if (const TomlValue* tolerance = table.find("contact_tolerance")) {
     settings.contact_tolerance_place = tolerance->place;
-    if (tolerance->kind == TomlValue::Kind::table) {
-      for (const TomlEntry& entry : tolerance->table)
+    if (tolerance->kind != TomlValue::Kind::table)
+      mistakes.gather(
+          [&] { settings.contact_tolerance = require_positive(*tolerance, "solve.contact_tolerance"); });
+    for (const TomlEntry& entry : tolerance->table)
+      mistakes.gather([&] {
         settings.contact_tolerances.push_back(
             {entry.key, entry.place,
              require_positive(entry.value, "solve.contact_tolerance." + shown(entry.key))});
-    } else {
-      settings.contact_tolerance = require_positive(*tolerance, "solve.contact_tolerance");
-    }
+      });
   }
+  mistakes.tell();
   return settings;
 }
 

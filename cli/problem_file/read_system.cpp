@@ -56,39 +56,48 @@ bool has_known_keys(const TomlValue& table, const TomlValue* bodies, convex::Mis
   return bodies != nullptr || (table.find("coordinates") != nullptr && table.find("kinetic") != nullptr);
 }
 
-mechanics::LagrangianText read_lagrangian(const TomlValue& table, const TomlValue* bodies) {
-  mechanics::LagrangianText system;
-  const TomlValue* coordinates = table.find("coordinates");
-  const bool needed = bodies == nullptr;
-  if (coordinates == nullptr ? needed : coordinates->kind != TomlValue::Kind::array)
-    throw InvalidInput("system.coordinates: no list of names; write coordinates = [\"x\", \"y\"]",
-                       coordinates == nullptr ? table.place : coordinates->place);
-  if (coordinates != nullptr)
-    for (const TomlValue& name : coordinates->array)
-      system.coordinates.push_back(string_text(name, "system.coordinates"));
-  const TomlValue* kinetic = table.find("kinetic");
-  if (kinetic == nullptr && needed)
-    throw InvalidInput("system.kinetic: no kinetic energy; write kinetic = \"m/2*x'^2\"", table.place);
-  if (kinetic != nullptr) system.kinetic = expression(*kinetic, "system.kinetic");
-  if (const TomlValue* potential = table.find("potential"))
-    system.potential = expression(*potential, "system.potential");
-  system.parameters = named(table.find("parameters"), "system.parameters");
-  system.definitions = named(table.find("definitions"), "system.definitions");
-  system.forces = named(table.find("forces"), "system.forces");
-  system.constraints = named(table.find("constraints"), "system.constraints");
-  if (bodies != nullptr) add_bodies(*bodies, system);
-  return system;
+/// `is_whole`: what is missing stands under no key with a wrong name. Whether nothing was wrong.
+bool read_lagrangian(mechanics::LagrangianText& system, const TomlValue& table, const TomlValue* bodies,
+                     bool is_whole, convex::Mistakes& mistakes) {
+  bool is_read = is_whole;
+  const auto read = [&](const auto& work) { is_read = mistakes.gather(work) && is_read; };
+  const bool needed = bodies == nullptr && is_whole;
+  read([&] {
+    const TomlValue* coordinates = table.find("coordinates");
+    if (coordinates == nullptr ? needed : coordinates->kind != TomlValue::Kind::array)
+      throw InvalidInput("system.coordinates: no list of names; write coordinates = [\"x\", \"y\"]",
+                         coordinates == nullptr ? table.place : coordinates->place);
+    if (coordinates != nullptr)
+      for (const TomlValue& name : coordinates->array)
+        system.coordinates.push_back(string_text(name, "system.coordinates"));
+  });
+  read([&] {
+    const TomlValue* kinetic = table.find("kinetic");
+    if (kinetic == nullptr && needed)
+      throw InvalidInput("system.kinetic: no kinetic energy; write kinetic = \"m/2*x'^2\"", table.place);
+    if (kinetic != nullptr) system.kinetic = expression(*kinetic, "system.kinetic");
+  });
+  read([&] {
+    if (const TomlValue* potential = table.find("potential"))
+      system.potential = expression(*potential, "system.potential");
+  });
+  read([&] { system.parameters = named(table.find("parameters"), "system.parameters"); });
+  read([&] { system.definitions = named(table.find("definitions"), "system.definitions"); });
+  read([&] { system.forces = named(table.find("forces"), "system.forces"); });
+  read([&] { system.constraints = named(table.find("constraints"), "system.constraints"); });
+  if (bodies != nullptr && is_whole) read([&] { add_bodies(*bodies, system); });
+  return is_read;
 }
 
-mechanics::StateText read_state(const TomlValue& table) {
-  require_known_keys(table, "state", {"t", "position", "velocity", "in_contact", "solve_for"});
-  mechanics::StateText state;
-  if (const TomlValue* t = table.find("t")) state.t = expression(*t, "state.t");
-  const TomlValue* position = table.find("position");
+void read_state(mechanics::StateText& state, const TomlValue& table, convex::Mistakes& mistakes) {
+  mistakes.gather([&] {
+    require_known_keys(table, "state", {"t", "position", "velocity", "in_contact", "solve_for"});
+  });
+  const TomlValue *t = table.find("t"), *position = table.find("position");
+  if (t != nullptr) mistakes.gather([&] { state.t = expression(*t, "state.t"); });
   state.position_table = Text{"", position == nullptr ? table.place : position->place};
-  state.position = named(position, "state.position");
-  state.velocity = named(table.find("velocity"), "state.velocity");
-  return state;
+  mistakes.gather([&] { state.position = named(position, "state.position"); });
+  mistakes.gather([&] { state.velocity = named(table.find("velocity"), "state.velocity"); });
 }
 
 std::vector<std::string> names_in(const TomlValue& list, const std::string& where) {
@@ -158,19 +167,20 @@ SystemProblem read_system(const TomlValue& document, const std::string& director
   const TomlValue *state = document.find("state"), *bodies = document.find("bodies");
   SystemProblem problem;
   if (!mistakes.gather([&] { require_table(system, "system"); })) return problem;
-  if (!has_known_keys(system, bodies, mistakes)) return problem;
-  bool is_read = mistakes.gather([&] { problem.system = read_lagrangian(system, bodies); });
+  const bool is_whole = has_known_keys(system, bodies, mistakes);
+  bool is_read = read_lagrangian(problem.system, system, bodies, is_whole, mistakes);
   problem.system.table_file = [directory](const std::string& file) {
     return read_table_points(file.empty() || file[0] == '/' || directory.empty() ? file
                                                                                  : directory + "/" + file);
   };
-  is_read = mistakes.gather([&] { add_looseness(problem, system.find("looseness")); }) && is_read;
+  if (is_whole)
+    is_read = mistakes.gather([&] { add_looseness(problem, system.find("looseness")); }) && is_read;
   if (state == nullptr && !is_read) return problem;  // it may be what stands in another table
   mistakes.gather([&] {
     if (state == nullptr)
       throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
                          system.place);
-    problem.state = read_state(require_table(*state, "state"));
+    read_state(problem.state, require_table(*state, "state"), mistakes);
     problem.declared = read_declared(*state);
   });
   if (!mistakes.none() && is_read) mechanics::gather_mistakes(problem.system, problem.state, mistakes);

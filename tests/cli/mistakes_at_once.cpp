@@ -55,6 +55,16 @@ TEST_CASE("mistakes of a file that do not hang on each other are told at once, i
              {"4:1: unknown key \"potental\" in [system]; ", "6:8: parameter m: "});
   check_told(point_on_floor({{11, "position = { x = \"0.0*\", y = \"q\" }"}}),
              {"11:23: position of x: ", "11:31: position of y: "});
+  // The state, the settings and the other keys of a table are read without what is wrong in [system].
+  check_told(point_on_floor({{2, "coordinate = [\"x\", \"y\"]"},
+                             {4, "potential = true"},
+                             {12, "velocities = { x = 0.0 }"},
+                             {13, "in_contact = 3\n[simulate]\nuntil = false\nstep = -1"}}),
+             {"2:1: unknown key \"coordinate\" in [system]; ",
+              "4:13: system.potential: ", "12:1: unknown key \"velocities\" in [state]; ",
+              "13:14: state.in_contact: ", "15:9: simulate.until: ", "16:8: simulate.step: "});
+  check_told(point_on_floor({{11, "position = { x = \"0.0*\", y = 0.0 }"}, {12, "velocities = { x = 0.0 }"}}),
+             {"11:23: position of x: ", "12:1: unknown key \"velocities\" in [state]; "});
   check_told("[decomposition]\nz = [1, \"two\"]\nf = \"norm1(\"\n", {"2:9: ", "3:"});
   check_told(
       "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"disk(center=[0, 0], radius=1)\"\ndensity = 0\n"
