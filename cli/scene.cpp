@@ -9,6 +9,7 @@
 #include "cli/problem_file/settings.hpp"
 #include "convex/mistakes.hpp"
 #include "convex/nearest_name.hpp"
+#include "mechanics/angles_in_degrees.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace cli {
@@ -68,7 +69,7 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
             {},
             std::move(written)};
   } catch (const InvalidInput& error) {
-    throw InvalidInput(error.what(), error.place().value_or(text.system.kinetic.begin));
+    throw mechanics::refused_state(error, text.system.kinetic.begin, *system);
   }
 }
 

@@ -40,4 +40,11 @@ std::vector<std::string> angles_in_degrees(const LagrangianSystem& system) {
   return found;
 }
 
+convex::InvalidInput refused_state(const convex::InvalidInput& error, convex::Place place,
+                                   const LagrangianSystem& system) {
+  const std::vector<std::string> angles = angles_in_degrees(system);
+  return convex::InvalidInput(error.what() + (angles.empty() ? "" : " (" + angles.front() + ")"),
+                              error.place().value_or(place));
+}
+
 }  // namespace mechanics

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "convex/invalid_input.hpp"
+
 namespace mechanics {
 
 class LagrangianSystem;
@@ -10,5 +12,9 @@ class LagrangianSystem;
 /// A sentence for each sine, cosine or tangent of a whole number beyond a turn, as sin(30): it is in radians,
 /// and was hardly meant so.
 std::vector<std::string> angles_in_degrees(const LagrangianSystem&);
+
+/// Why a state is refused, told with such an angle, which may be the cause. `place`: of an error without one.
+convex::InvalidInput refused_state(const convex::InvalidInput& error, convex::Place place,
+                                   const LagrangianSystem&);
 
 }  // namespace mechanics

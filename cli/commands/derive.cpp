@@ -15,6 +15,7 @@
 #include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/resolved_scene.hpp"
+#include "mechanics/angles_in_degrees.hpp"
 
 namespace cli::inline commands {
 namespace {
@@ -162,6 +163,9 @@ std::vector<std::string> what_is_added(Scene& scene) {
     for (std::size_t k = 0; k < scene.added.size(); ++k)
       lines.push_back("singular: " + added_row_text(scene, k) + "; it is no derivative of one contact, and " +
                       "stands beside U and s");
+    if (scene.system)
+      for (std::string& angle : mechanics::angles_in_degrees(*scene.system))
+        lines.push_back(std::move(angle));
     return lines;
   } catch (const convex::InvalidInput& refused) {
     return {std::string("singular: ") + refused.what()};

@@ -19,6 +19,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/resumed_state.hpp"
 #include "cli/scene.hpp"
+#include "mechanics/angles_in_degrees.hpp"
 #include "mechanics/motion/orbit.hpp"
 #include "mechanics/motion/tangent_chart.hpp"
 
@@ -172,7 +173,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     orbit = mechanics::find_orbit(*system, guess, question);
   } catch (const InvalidInput& error) {
     const auto time = question.is_free ? place_of_time(text->system) : std::nullopt;
-    throw InvalidInput(error.what(), error.place().value_or(time.value_or(text->system.kinetic.begin)));
+    throw mechanics::refused_state(error, time.value_or(text->system.kinetic.begin), *system);
   }
   if (orbit.why.starts_with("Newton's method finds no motion")) orbit.why += how_to_begin(file, options);
   const long fewest = orbit.is_found && !question.is_free
@@ -187,6 +188,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
         fmt::format("the motion comes back after {} of the {} periods already; give "
                     "--periods {}",
                     fewest, options.periods, fewest));
+  for (std::string& said : mechanics::angles_in_degrees(*system)) answer.warnings.push_back(std::move(said));
   return answer;
 }
 

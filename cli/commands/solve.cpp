@@ -13,7 +13,6 @@
 #include "cli/report/singular_report.hpp"
 #include "cli/report/solve_progress.hpp"
 #include "cli/resolved_scene.hpp"
-#include "mechanics/angles_in_degrees.hpp"
 
 namespace cli::inline commands {
 namespace {
@@ -49,11 +48,7 @@ Answer solve_scene(Scene scene, const std::optional<DrawnScene>& drawn, const So
   Exit exit = exit_code(found.solution.primal.status);
   if (options.certify && found.certificate.level == convex::ProofLevel::none)
     exit = std::max(exit, Exit::inaccurate);
-  Answer answer{exit, options.json ? solve_json(solved) + "\n" : solve_text(solved), warning_lines(solved)};
-  if (scene.system)
-    for (std::string& said : mechanics::angles_in_degrees(*scene.system))
-      answer.warnings.push_back(std::move(said));
-  return answer;
+  return {exit, options.json ? solve_json(solved) + "\n" : solve_text(solved), warning_lines(solved)};
 }
 
 Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, const std::string& file,

@@ -127,6 +127,10 @@ class Sweep {
   }
 
   const SweepRecord& record() const { return record_; }
+  std::vector<std::string> angles_in_degrees() {
+    const SweepGrid grid(ranges_);
+    return workers_.front().angles_in_degrees({grid[0], grid[grid.size() - 1]});
+  }
   const std::vector<SweepRange>& ranges() const { return ranges_; }
   const std::vector<Watched>& watched() const { return watched_; }
   const SweepTable& table() const { return *table_; }
@@ -299,6 +303,8 @@ Exit sweep(const SweepOptions& options) {
   else if (options.output && !options.quiet)
     fmt::print("{}", summary_text(summary));
   std::fflush(stdout);
+  for (const std::string& angle : sweep.angles_in_degrees())
+    fmt::print(stderr, "moreau: warning: {}: {}\n", options.file, angle);
   if (summary.without_answer > 0)
     fmt::print(stderr, "moreau: {}: {}{}\n", options.file,
                summary.without_answer == 1

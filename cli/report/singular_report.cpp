@@ -7,6 +7,7 @@
 #include "cli/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
+#include "mechanics/angles_in_degrees.hpp"
 #include "mechanics/branch_edges.hpp"
 #include "mechanics/near_contact.hpp"
 
@@ -164,6 +165,12 @@ std::vector<std::string> warning_lines(const std::vector<Warning>& warnings) {
   return lines;
 }
 
-std::vector<std::string> warning_lines(const SolvedScene& solved) { return warning_lines(solved.warnings); }
+std::vector<std::string> warning_lines(const SolvedScene& solved) {
+  std::vector<std::string> lines = warning_lines(solved.warnings);
+  if (solved.scene.system)
+    for (std::string& angle : mechanics::angles_in_degrees(*solved.scene.system))
+      lines.push_back(std::move(angle));
+  return lines;
+}
 
 }  // namespace cli::inline reports

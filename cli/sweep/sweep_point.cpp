@@ -11,6 +11,7 @@
 #include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/nearest_name.hpp"
 #include "convex/nearest_point/automatic.hpp"
+#include "mechanics/angles_in_degrees.hpp"
 
 namespace cli::inline sweeps {
 namespace {
@@ -105,11 +106,15 @@ SweepScene::SweepScene(TomlValue document, std::string file, std::vector<std::st
       keys_(std::move(keys)),
       options_(std::move(options)) {}
 
-Scene SweepScene::scene(const std::vector<double>& at) {
+Problem SweepScene::problem(const std::vector<double>& at) {
   std::vector<Setting> settings;
   for (std::size_t k = 0; k < keys_.size(); ++k) settings.push_back(number_setting(keys_[k], at[k]));
   apply_settings(document_, settings);
-  Problem problem = read_problem(document_, directory_of(file_));
+  return read_problem(document_, directory_of(file_));
+}
+
+Scene SweepScene::scene(const std::vector<double>& at) {
+  Problem problem = this->problem(at);
   assemble_declared(problem);
   return make_scene(std::move(problem), file_, options_);
 }
@@ -151,10 +156,7 @@ std::vector<Watched> SweepScene::watched(const std::vector<std::string>& names,
 }
 
 SweepScene::Names SweepScene::names(const std::vector<double>& at) {
-  std::vector<Setting> settings;
-  for (std::size_t k = 0; k < keys_.size(); ++k) settings.push_back(number_setting(keys_[k], at[k]));
-  apply_settings(document_, settings);
-  const Problem problem = read_problem(document_, directory_of(file_));
+  const Problem problem = this->problem(at);
   Names found;
   if (const auto* text = std::get_if<SystemProblem>(&problem.content)) {
     const auto system = mechanics::lagrangian_system(text->system, text->state);
@@ -171,6 +173,20 @@ SweepScene::Names SweepScene::names(const std::vector<double>& at) {
     throw InvalidInput("no contacts here; `moreau sweep` takes a file with [system] or [projection]");
   }
   return found;
+}
+
+std::vector<std::string> SweepScene::angles_in_degrees(const std::vector<std::vector<double>>& points) {
+  for (const std::vector<double>& at : points) {
+    try {
+      const Problem problem = this->problem(at);
+      const auto* text = std::get_if<SystemProblem>(&problem.content);
+      if (text == nullptr) return {};
+      auto found = mechanics::angles_in_degrees(*mechanics::lagrangian_system(text->system, text->state));
+      if (!found.empty()) return found;
+    } catch (const InvalidInput&) {  // the row of the point tells it
+    }
+  }
+  return {};
 }
 
 SweepPoint SweepScene::solve(const std::vector<double>& at, const std::vector<Watched>& watched) {

@@ -42,6 +42,9 @@ class SweepScene {
   /// not.
   std::vector<Watched> watched(const std::vector<std::string>& names, const std::vector<double>& at);
 
+  /// Of the first of these points that has some.
+  std::vector<std::string> angles_in_degrees(const std::vector<std::vector<double>>& points);
+
   SweepPoint solve(const std::vector<double>& at, const std::vector<Watched>& watched);
 
   /// Signed numbers whose roots are where the contacts change: of the equations in which `held` persist, the
@@ -59,6 +62,7 @@ class SweepScene {
     std::vector<std::string> coordinates, constraints;
     bool is_mechanism = false;
   };
+  Problem problem(const std::vector<double>& at);
   Names names(const std::vector<double>& at);
   Scene scene(const std::vector<double>& at);
 

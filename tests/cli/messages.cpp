@@ -110,4 +110,21 @@ TEST_CASE("a plain number beyond a turn in a sine is told as radians, and one th
   CHECK(run_on("solve", sliding("-45")).err.find("radians") != std::string::npos);
   for (const char* angle : {"\"30*pi/180\"", "6", "0.5", "\"10*pi\""})
     CHECK(run_on("solve", sliding(angle)).err.empty());
+  const Folder folder;
+  const std::string file = folder.write("a.toml", sliding("30"));
+  const std::vector<std::string> ways[] = {{"explain", file},
+                                           {"derive", file},
+                                           {"check", file},
+                                           {"sweep", file, "--over", "m=1,2"},
+                                           {"simulate", file, "--until", "0.1"},
+                                           {"orbit", file, "--period", "1"}};
+  for (const auto& way : ways) {
+    CAPTURE(way.front());
+    CHECK(run(way).err ==
+          "moreau: warning: " + file +
+              ": line 4: the angle \"a\" = 30 counts in radians; where degrees are meant, write "
+              "a*pi/180\n");
+  }
+  CHECK(run({"sweep", folder.write("b.toml", sliding("0")), "--over", "a=0:15:30"}).err.find("\"a\" = 30") !=
+        std::string::npos);
 }
