@@ -80,10 +80,25 @@ std::string fighting_text(const LagrangianSystem& system, const std::vector<Inde
   return list;
 }
 
+std::string position_text(const LagrangianSystem& system, const mechanics::State& state) {
+  constexpr std::size_t most_told = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_told, system.coordinates().size()); ++i)
+    text += (i > 0 ? ", " : "") + system.coordinates()[i] + " = " +
+            mechanics::number_text(state.q[static_cast<Index>(i)]);
+  return text + (system.coordinates().size() > most_told ? ", …" : "");
+}
+
+Moved moved_from(const LagrangianSystem& system, const mechanics::State& given,
+                 const mechanics::Assembly& found) {
+  const mechanics::Vector change = found.state.v - given.v;
+  return {found.moved, std::sqrt(change.dot(system.inertia(given).A * change))};
+}
+
 void assemble_declared(Problem& problem, const std::string& file) {
   if (const auto moved = assemble_declared(problem))
     fmt::print(stderr,
-               "moreau: {}: the state was assembled; in the kinetic metric its position moved by {} and its "
+               "moreau: {}: the state was assembled; in the kinetic metric the position moved by {} and the "
                "velocity changed by {}\n",
                file, mechanics::number_text(moved->position), mechanics::number_text(moved->velocity));
 }
@@ -96,17 +111,17 @@ std::optional<Moved> assemble_declared(Problem& problem) {
   const mechanics::Assembly found =
       mechanics::assemble(*system, given, declared_question(*system, *text->declared));
   if (found.status != mechanics::AssemblyStatus::solved)
-    throw InvalidInput(found.status == mechanics::AssemblyStatus::infeasible
-                           ? "state.in_contact: no state was found, " +
-                                 fighting_text(*system, found.fighting) +
-                                 (found.proved ? " exclude each other (proved)"
-                                               : " do not hold together near the one given") +
-                                 "; see `moreau assemble`"
-                           : "state.in_contact: no state was found from the one given; give a closer one",
-                       text->declared->place);
+    throw InvalidInput(
+        found.status == mechanics::AssemblyStatus::infeasible
+            ? "state.in_contact: no state was found, " + fighting_text(*system, found.fighting) +
+                  (found.proved      ? " exclude each other (proved)"
+                   : found.are_rates ? " hold where the search ends, but no velocity keeps them"
+                                     : " do not hold together near the one given") +
+                  "; see `moreau assemble`"
+            : "state.in_contact: no state was found from the one given; give a closer one",
+        text->declared->place);
   text->state = state_text(*system, found.state, text->state);
-  const mechanics::Vector change = found.state.v - given.v;
-  return Moved{found.moved, std::sqrt(change.dot(system->inertia(given).A * change))};
+  return moved_from(*system, given, found);
 }
 
 }  // namespace cli

@@ -27,6 +27,9 @@ mechanics::StateText state_text(const mechanics::LagrangianSystem&, const mechan
 /// "f and g exclude each other": what `fighting` says.
 std::string fighting_text(const mechanics::LagrangianSystem&, const std::vector<mechanics::Index>& fighting);
 
+/// "y = 0.5": where the positions are.
+std::string position_text(const mechanics::LagrangianSystem&, const mechanics::State&);
+
 /// Where [state] declares contacts, or what to solve for: the nearest such state takes its place, and
 /// standard error tells by how much position and velocity changed. Throws InvalidInput when there is none.
 void assemble_declared(Problem&, const std::string& file);
@@ -35,6 +38,9 @@ void assemble_declared(Problem&, const std::string& file);
 struct Moved {
   double position = 0, velocity = 0;
 };
+
+Moved moved_from(const mechanics::LagrangianSystem&, const mechanics::State& given,
+                 const mechanics::Assembly& found);
 
 /// The same, without telling; none where nothing is declared.
 std::optional<Moved> assemble_declared(Problem&);

@@ -233,7 +233,8 @@ Assembly assemble(const LagrangianSystem& system, const State& guess, const Asse
     const ConstraintRates rates = system.constraint_rates(guess);
     for (Index a = 0; a < here.f.size(); ++a)
       if (!keeps_rate(search, rates, a)) found.fighting.push_back(a);
-    if (!found.fighting.empty()) found.status = AssemblyStatus::infeasible;
+    found.are_rates = !found.fighting.empty();
+    if (found.are_rates) found.status = AssemblyStatus::infeasible;
     return found;
   }
   const TriedPosition best = feasible(search, guess, most_starts);
@@ -246,6 +247,7 @@ Assembly assemble(const LagrangianSystem& system, const State& guess, const Asse
     return found;
   }
   found.fighting = set_velocity(system, search, found.state);
+  found.are_rates = !found.fighting.empty();
   found.residual = residual_of(system, search, found.state);
   if (found.fighting.empty()) found.singular = singular_rows(system, search, best, found.state);
   const bool is_met = found.residual <= not_found && best.step <= not_found && found.singular.empty();

@@ -23,6 +23,7 @@ struct Assembly {
   double residual = 0, moved = 0;
   std::vector<Index> fighting;  ///< infeasible: constraints of which no search met all
   bool proved = false;          ///< that no state does: they exclude each other
+  bool are_rates = false;       ///< all hold at the position found; it is their df/dt that no velocity meets
   /// gave_up: two-sided constraints and contacts whose gradient vanishes at the position found, and which the
   /// velocity leaves to second order.
   std::vector<Index> singular;

@@ -86,16 +86,24 @@ std::string assembly_json(const LagrangianSystem& system, const mechanics::Assem
 }
 
 std::string assembly_text(const LagrangianSystem& system, const Assembly& found,
-                          const std::string& conditions) {
+                          const mechanics::State& guess, const std::string& conditions) {
+  const bool is_one = found.fighting.size() == 1;
+  if (found.are_rates)
+    return "No state" + conditions + " was found: at " + position_text(system, found.state) +
+           ", t = " + number_text(found.state.t) + " the constraints hold, but no velocity keeps " +
+           fighting_text(system, found.fighting) + (is_one ? "" : " together") +
+           " (df/dt). Choose another t or guess, or change how " +
+           (is_one ? "it moves.\n" : "they move against each other.\n");
   if (found.status == AssemblyStatus::infeasible && found.proved)
     return "There is no state" + conditions + ": " + fighting_text(system, found.fighting) +
-           (found.fighting.size() == 1 ? " does not hold at any position"
-                                       : " exclude each other at every position") +
-           (conditions.empty() ? "" : " of that kind") + " (proved).\n";
+           (is_one ? " does not hold at any position" : " exclude each other at every position") +
+           (conditions.empty() ? "" : " of that kind") + ", t = " + number_text(found.state.t) +
+           " (proved). Change " + (is_one ? "it" : "one of them") + ", or t.\n";
   if (found.status == AssemblyStatus::infeasible)
     return "No state" + conditions + " was found from many starts: " + fighting_text(system, found.fighting) +
-           (found.fighting.size() == 1 ? " does not hold" : " do not hold together") +
-           " where the searches end (not proved).\n";
+           (is_one ? " does not hold" : " do not hold together") +
+           " where the searches end (not proved). Guess elsewhere, or change " +
+           (is_one ? "it.\n" : "one of them.\n");
   if (!found.singular.empty())
     return "A position was found, but the gradient of " + fighting_text(system, found.singular) +
            " vanishes there, and the velocity leaves it to second order. Give position and velocity in the "
@@ -111,8 +119,13 @@ std::string assembly_text(const LagrangianSystem& system, const Assembly& found,
   for (std::size_t i = 0; i < system.coordinates().size(); ++i)
     table.add({system.coordinates()[i], fmt::format("{}", found.state.q[static_cast<Index>(i)]),
                fmt::format("{}", found.state.v[static_cast<Index>(i)])});
-  return table.text() + fmt::format("\nmoved by {} in the kinetic metric; what should be 0 is at most {}\n",
-                                    number_text(found.moved), number_text(found.residual));
+  const Moved moved = moved_from(system, guess, found);
+  return table.text() + fmt::format(
+                            "\nIn the kinetic metric the position moved by {} and the velocity changed by "
+                            "{}. What should be "
+                            "0 is at most {}.\n",
+                            number_text(moved.position), number_text(moved.velocity),
+                            number_text(found.residual));
 }
 
 TomlValue number_value(double x) { return number_setting("", x).value; }
@@ -163,7 +176,7 @@ Exit assemble_file(const AssembleOptions& options) {
     fmt::print("{}\n", assembly_json(*system, question, found, options.file));
   else if (!options.quiet)
     fmt::print("{}{}", heading(problem.title, options.file),
-               assembly_text(*system, found, conditions_text(*system, question, guess)));
+               assembly_text(*system, found, guess, conditions_text(*system, question, guess)));
   if (found.status == AssemblyStatus::infeasible) return Exit::no_solution;
   if (found.status == AssemblyStatus::gave_up) return Exit::inaccurate;
   return Exit::solved;

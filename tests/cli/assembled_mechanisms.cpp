@@ -44,6 +44,26 @@ Json assembled(const std::string& file, std::vector<std::string> more) {
 }  // namespace
 
 TEST_CASE(
+    "where a position holds and no velocity does, it is told with its place and what excludes each other") {
+  const Folder folder;
+  const std::string walls = folder.write(
+      "a.toml",
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"x'^2 + y'^2\"\n[system.constraints]\n"
+      "floor = \"y >= sin(3*t)\"\nceiling = \"y <= -sin(3*t)\"\n[state]\nposition = { x = 0.5, y = 0 }\n");
+  const Outcome closing = run({"assemble", walls});
+  CHECK(closing.code == 1);
+  CHECK(closing.out.find("No state was found: at x = 0.5, y = 0, t = 0 the constraints hold, but no velocity "
+                         "keeps floor, ceiling together (df/dt). ") != std::string::npos);
+  const Outcome held = run({"assemble", walls, "--hold", "y"});
+  CHECK(held.code == 1);
+  CHECK(held.out.find("with y = 0 held") != std::string::npos);
+  CHECK(held.out.find("no velocity keeps floor") != std::string::npos);
+  const Outcome moved = run({"assemble", folder.write("c.toml", cam)});
+  CHECK(moved.out.find("In the kinetic metric the position moved by 0 and the velocity changed by ") !=
+        std::string::npos);
+}
+
+TEST_CASE(
     "a four-bar, a Geneva wheel, a cam and a slider-crank with clearance close from guesses a tenth off") {
   constexpr double rounding = 1e-14;
   const Folder folder;
