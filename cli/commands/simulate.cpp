@@ -202,7 +202,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   mechanics::Motion& motion = *begun;
 
   MotionFiles files(problem, *system, state.t, until, options);
-  FollowedMotion followed{file, problem.title, *system, motion, {}, until, false, 0, {}, state.t, {}};
+  FollowedMotion followed{file, problem.title, *system, motion, {}, until, false, 0, {}, state, {}};
   if (way.is_open) followed.choice = way.why;
   const auto remember = [&] {
     for (const mechanics::MotionEvent& event : motion.events())

@@ -76,10 +76,11 @@ std::string without_time(const std::string& reason) {
 
 namespace {
 
-/// Velocities and accelerations at the end as they are to be read: what the forces and the multipliers there
-/// cancel to is 0, and so is a velocity beside what each of them alone would have made in the time.
+/// The end as it is to be read: an acceleration is 0 as what the forces and the multipliers there cancel to,
+/// a velocity beside what each of them alone would have made in the time, a position beside what a rounding
+/// of the first one, or of the time, makes of it.
 struct ReadableEnd {
-  convex::Vector v, acceleration;
+  convex::Vector q, v, acceleration;
 };
 
 /// |A⁻¹z| + Σ |lambda_a A⁻¹u_a|, entry by entry: what the acceleration is the sum of.
@@ -102,14 +103,18 @@ convex::Vector terms_of_acceleration(const mechanics::LagrangianSystem& system,
 ReadableEnd readable_end(const FollowedMotion& followed) {
   constexpr Index most_coordinates = 100;  // of a dense factor that is not noticed
   const mechanics::Motion& motion = followed.motion;
-  ReadableEnd end{motion.state().v, motion.acceleration()};
+  const mechanics::State& last = motion.state();
+  ReadableEnd end{last.q, last.v, motion.acceleration()};
   const Index n = end.v.size();
+  for (Index i = 0; i < n; ++i)
+    end.q[i] =
+        without_rounding(end.q[i], std::abs(followed.begin.q[i]) + std::abs(last.v[i]) * std::abs(last.t));
   if (n > most_coordinates || end.acceleration.size() != n) return end;
   try {
     const convex::Vector terms = terms_of_acceleration(followed.system, motion);
     for (Index i = 0; i < n; ++i) {
       end.acceleration[i] = without_rounding(end.acceleration[i], terms[i]);
-      end.v[i] = without_rounding(end.v[i], terms[i] * std::abs(motion.state().t - followed.begin));
+      end.v[i] = without_rounding(end.v[i], terms[i] * std::abs(last.t - followed.begin.t));
     }
   } catch (const convex::InvalidInput&) {
     return end;  // the motion ends where the expressions do
@@ -218,7 +223,7 @@ std::string motion_text(const FollowedMotion& followed) {
   constexpr auto shown_rows = static_cast<std::size_t>(most_rows);
   for (std::size_t i = 0; i < std::min(coordinates, shown_rows); ++i) {
     const auto k = static_cast<Index>(i);
-    end.add({followed.system.coordinates()[i], number_text(state.q[k]), number_text(read.v[k]),
+    end.add({followed.system.coordinates()[i], number_text(read.q[k]), number_text(read.v[k]),
              is_known ? number_text(read.acceleration[k]) : "-"});
   }
   text += end.text();

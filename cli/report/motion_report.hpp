@@ -19,7 +19,7 @@ struct FollowedMotion {
   bool interrupted = false;
   double seconds = 0;
   std::optional<mechanics::RoundingGrowth> growth;  ///< where it was looked for
-  double begin = 0;                                 ///< the time of its start
+  mechanics::State begin;                           ///< its start
   std::string choice;                               ///< of "auto", where it is the ordinary one
 };
 

@@ -210,6 +210,30 @@ in_contact = []
     CHECK(table.find(row) != std::string::npos);
 }
 
+TEST_CASE("a position that a rounding of the first one hides is told as 0, and in full under --json") {
+  const tests::Folder folder;
+  // A block rocks from one edge to the other, by an angle that comes to nothing.
+  const std::string file = folder.write("a.toml", R"toml(
+[system]
+coordinates = ["y", "a"]
+kinetic = "m/2*y'^2 + m*(b^2 + h^2)/6*a'^2"
+potential = "m*g*y"
+parameters = { m = 10, b = 0.2, h = 0.5, g = 9.81 }
+[system.constraints]
+left = "y - h*cos(a) - b*sin(a) >= 0"
+right = "y - h*cos(a) + b*sin(a) >= 0"
+[state]
+position = { y = "h*cos(0.1) + b*sin(0.1)", a = 0.1 }
+[simulate]
+until = 2
+)toml");
+  const std::string text = tests::run({"simulate", file}).out;
+  CHECK(text.find("\n  a     0    0     0\n") != std::string::npos);
+  const std::string json = tests::run({"simulate", file, "--json"}).out;
+  CHECK(json.find("\"a\":0}") > json.find("\"position\""));
+  CHECK(json.substr(json.find("\"position\""), 60).find("e-") != std::string::npos);
+}
+
 TEST_CASE("how far one force alone may change is where the contacts of an answer are others") {
   const Folder folder;
   const auto text = [](double first, double second) {
