@@ -95,37 +95,88 @@ function drawScene(frame) {
     }
   }
   pen.font = "12px system-ui, sans-serif";
-  if (shapes.length <= 40) shapes.forEach((shape, i) => {
-    pen.fillStyle = isGround[i] ? grey : black;
-    nameShape(shape, v, X, Y, scale);
-  });
-  pen.textAlign = "left";
+  lines = [];
+  words = [];
   drawScale(scale);
   for (const [a, x, y, fx, fy] of frame.arrows) {
     const size = Math.hypot(fx, fy), length = 90 * Math.min(1.3, size / strongest);
-    arrow(X(x), Y(y), fx / size * length, -fy / size * length, motion.constraints[a]);
+    arrow(X(x), Y(y), fx / size * length, -fy / size * length);
+  }
+  for (const shape of shapes) outline(shape, v, X, Y, scale);
+  if (shapes.length <= 40) shapes.forEach((shape, i) => {
+    nameShape(shape, isGround[i] ? grey : black, v, X, Y, scale);
+  });
+  if (motion.constraints.length <= 40) for (const [a, x, y, fx, fy] of frame.arrows) {
+    const size = Math.hypot(fx, fy), length = 90 * Math.min(1.3, size / strongest);
+    if (length < 1) continue;
+    const ux = fx / size, uy = -fy / size, tx = X(x) + ux * length, ty = Y(y) + uy * length;
+    const mx = tx - ux * length / 2, my = ty - uy * length / 2;
+    writeBeside(motion.constraints[a], red, "force " + a, [[tx, ty, ux, uy], [tx, ty, -uy, ux], [tx, ty, uy, -ux], [mx, my, -uy, ux], [mx, my, uy, -ux]]);
   }
 }
 
-// Beside a rod, on the side that looks up; above a circle's centre; to the right of a point.
-function nameShape(shape, v, X, Y, scale) {
-  const n = shape.numbers;
-  if (shape.kind !== "segment") {
-    const isCircle = shape.kind === "circle", inside = isCircle && Math.abs(v[n[2]]) * scale > 14;
-    pen.textAlign = isCircle ? "center" : "left";
-    pen.fillText(shape.name, isCircle ? X(v[n[0]]) : X(v[n[0]]) + 8,
-                 Y(v[n[1]]) - (isCircle && !inside ? Math.abs(v[n[2]]) * scale + 6 : 6));
-    return;
+// Words stand on no other words and on no line where one of their places allows it, and stay where they stood in the
+// frame before as long as that is as good.
+let lines = [], words = [];
+const stood = {};
+function meets([ax, ay, bx, by], box) {
+  let begin = 0, end = 1;
+  for (const [from, step, low, high] of [[ax, bx - ax, box[0], box[2]], [ay, by - ay, box[1], box[3]]]) {
+    if (step === 0 && (from < low || from > high)) return false;
+    if (step === 0) continue;
+    const a = (low - from) / step, b = (high - from) / step;
+    begin = Math.max(begin, Math.min(a, b));
+    end = Math.min(end, Math.max(a, b));
   }
-  const dx = X(v[n[2]]) - X(v[n[0]]), dy = Y(v[n[3]]) - Y(v[n[1]]), length = Math.hypot(dx, dy);
-  let nx = length > 0 ? dy / length : 0, ny = length > 0 ? -dx / length : -1;
-  if (ny > 0 || (ny === 0 && nx < 0)) { nx = -nx; ny = -ny; }
-  const half = pen.measureText(shape.name).width / 2;
+  return begin <= end;
+}
+// places: [x, y, ux, uy], the point and the direction from it in which the words stand.
+function writeBeside(text, colour, key, places) {
+  const half = pen.measureText(text).width / 2;
+  const boxes = places.map(([x, y, ux, uy]) => {
+    // The box of the words touches what it names where its corner is 6 pixels off.
+    const away = ux === 0 && uy === 0 ? 0 : 6 + Math.abs(ux) * half + Math.abs(uy) * 5;
+    const mx = x + ux * away, my = y + uy * away;
+    return [mx - half - 1, my - 6, mx + half + 1, my + 6];
+  });
+  const cost = (box) => lines.filter((line) => meets(line, box)).length +
+    4 * words.filter((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]).length +
+    (box[0] < 0 || box[1] < 0 || box[2] > canvas.width || box[3] > canvas.height ? 4 : 0);
+  const costs = boxes.map(cost), least = Math.min(...costs), before = stood[key];
+  const chosen = costs[before] === least ? before : costs.indexOf(least);
+  stood[key] = chosen;
+  const box = boxes[chosen];
+  words.push(box);
+  pen.fillStyle = colour;
   pen.textAlign = "center";
-  // The box of the words touches the rod where its corner is 6 pixels off.
-  const away = 6 + Math.abs(nx) * half + Math.abs(ny) * 5;
-  pen.fillText(shape.name, (X(v[n[0]]) + X(v[n[2]])) / 2 + nx * away,
-               (Y(v[n[1]]) + Y(v[n[3]])) / 2 + ny * away + 4);
+  pen.fillText(text, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2 + 4);
+  pen.textAlign = "left";
+}
+function outline(shape, v, X, Y, scale) {
+  const n = shape.numbers, x = X(v[n[0]]), y = Y(v[n[1]]), corners = 16;
+  if (shape.kind === "segment") lines.push([x, y, X(v[n[2]]), Y(v[n[3]])]);
+  if (shape.kind === "point") lines.push([x - 5, y, x + 5, y]);
+  const r = shape.kind === "circle" ? Math.abs(v[n[2]]) * scale : 0, turn = 2 * Math.PI / corners;
+  for (let k = 0; k < corners && r > 0; ++k)
+    lines.push([x + r * Math.cos(k * turn), y + r * Math.sin(k * turn),
+                x + r * Math.cos((k + 1) * turn), y + r * Math.sin((k + 1) * turn)]);
+}
+
+// Beside a rod, best at its middle and on the side that looks up; in a circle or around it; around a point.
+function nameShape(shape, colour, v, X, Y, scale) {
+  const n = shape.numbers, x = X(v[n[0]]), y = Y(v[n[1]]), places = [];
+  if (shape.kind === "segment") {
+    const dx = X(v[n[2]]) - x, dy = Y(v[n[3]]) - y, length = Math.hypot(dx, dy);
+    let nx = length > 0 ? dy / length : 0, ny = length > 0 ? -dx / length : -1;
+    if (ny > 0 || (ny === 0 && nx < 0)) { nx = -nx; ny = -ny; }
+    for (const part of [1 / 2, 1 / 3, 2 / 3, 1 / 6, 5 / 6])
+      for (const side of [1, -1]) places.push([x + part * dx, y + part * dy, side * nx, side * ny]);
+  } else {
+    const r = shape.kind === "circle" ? Math.abs(v[n[2]]) * scale : 4, slant = Math.SQRT1_2;
+    if (shape.kind === "circle" && r > 14) places.push([x, y, 0, 0]);
+    for (const [ux, uy] of [[slant, -slant], [0, -1], [1, 0], [-1, 0], [0, 1]]) places.push([x + r * ux, y + r * uy, ux, uy]);
+  }
+  writeBeside(shape.name, colour, "shape " + shape.name, places);
 }
 
 // A length of 1, 2 or 5 times a power of ten, in the units of the file.
@@ -144,9 +195,10 @@ function drawScale(scale) {
   pen.textAlign = "center";
   pen.fillText(Number(unit.toPrecision(1)).toString(), (left + right) / 2, y - 5);
   pen.textAlign = "left";
+  words.push([left, y - 16, right, y]);
 }
 
-function arrow(x, y, dx, dy, name) {
+function arrow(x, y, dx, dy) {
   const length = Math.hypot(dx, dy);
   if (length < 1) return;
   const ux = dx / length, uy = dy / length, tip = Math.min(9, length);
@@ -161,7 +213,7 @@ function arrow(x, y, dx, dy, name) {
   pen.lineTo(x + dx - ux * tip - uy * tip / 2, y + dy - uy * tip + ux * tip / 2);
   pen.lineTo(x + dx - ux * tip + uy * tip / 2, y + dy - uy * tip - ux * tip / 2);
   pen.fill();
-  if (frames.length > 0 && motion.constraints.length <= 40) pen.fillText(name, x + dx + 4, y + dy + 4);
+  lines.push([x, y, x + dx, y + dy]);
 }
 
 function drawSliders(frame) {

@@ -16,9 +16,11 @@ constexpr std::size_t most_curves_of_branch = 6;
 /// Pixels; the keys are beside.
 constexpr double branch_left = 91, branch_right = 546;
 
-std::string largest_multiplier(const mechanics::Orbit& orbit) {
-  if (!orbit.multipliers || orbit.multipliers->empty()) return "NaN";
-  return fmt::format("{}", std::abs(orbit.multipliers->front()));
+/// 0 where it is no more than its error; NaN of none.
+double largest_multiplier(const mechanics::Orbit& orbit) {
+  if (!orbit.multipliers || orbit.multipliers->empty()) return NAN;
+  const double largest = std::abs(orbit.multipliers->front());
+  return largest > orbit.circle_width ? largest : 0;
 }
 
 /// Columns: value, q, v, largest multiplier; what is left out interrupts its curve.
@@ -26,7 +28,8 @@ std::string columns(const BranchPoint& point, bool has_velocity = true, bool has
   std::string text = fmt::format("{}", point.value);
   for (const double q : point.orbit.start.q) text += fmt::format(" {}", q);
   for (const double v : point.orbit.start.v) text += has_velocity ? fmt::format(" {}", v) : " NaN";
-  return text + " " + (has_multiplier ? largest_multiplier(point.orbit) : "NaN") + "\n";
+  const double largest = has_multiplier ? largest_multiplier(point.orbit) : NAN;
+  return text + (std::isnan(largest) ? " NaN\n" : fmt::format(" {}\n", largest));
 }
 
 /// Between a graze and orbits with the impact that begins there: their multipliers grow beyond all bounds
@@ -89,10 +92,9 @@ class MultiplierScale {
  public:
   explicit MultiplierScale(const std::vector<BranchPoint>& points) {
     for (const BranchPoint& point : points) {
-      if (!point.orbit.multipliers || point.orbit.multipliers->empty()) continue;
-      const bool is_zero = point.orbit.multipliers->front() == 0.0;
-      has_zeros_ = has_zeros_ || is_zero;
-      is_logarithmic_ = is_logarithmic_ || !is_zero;
+      const double largest = largest_multiplier(point.orbit);
+      has_zeros_ = has_zeros_ || largest == 0;
+      is_logarithmic_ = is_logarithmic_ || largest > 0;
     }
   }
   std::string label() const {
@@ -184,6 +186,10 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
     for (std::size_t i = 0; i < drawn; ++i) {
       ranges[0].add(point.orbit.start.q[static_cast<convex::Index>(i)]);
       ranges[1].add(point.orbit.start.v[static_cast<convex::Index>(i)]);
+      if (point.orbit.largest.size() == static_cast<convex::Index>(2 * n)) {
+        ranges[0].count_beside(point.orbit.largest[static_cast<convex::Index>(i)]);
+        ranges[1].count_beside(point.orbit.largest[static_cast<convex::Index>(n + i)]);
+      }
     }
   StackedDiagrams stacked{branch_left, branch_right, {}};
   for (const BranchPanel& panel : panels)

@@ -8,8 +8,14 @@ namespace cli::inline drawings {
 namespace {
 
 constexpr double drawn_rounding = 1e-9;
+/// Of numbers that a motion of many steps makes: some hundred roundings.
+constexpr double rounding_beside = 1e-13;
 
 }  // namespace
+
+void DrawnRange::count_beside(double size) {
+  if (std::isfinite(size)) rounding = std::max(rounding, rounding_beside * size);
+}
 
 void DrawnRange::add(double x) {
   if (!std::isfinite(x)) return;
@@ -20,16 +26,16 @@ void DrawnRange::add(double x) {
 double DrawnRange::size() const { return std::max(std::abs(low), std::abs(high)); }
 
 bool DrawnRange::is_constant() const {
-  return low <= high && high - low <= drawn_rounding * std::max(size(), drawn_rounding);
+  return low <= high && high - low <= std::max(drawn_rounding * std::max(size(), drawn_rounding), rounding);
 }
 
 DrawnRange DrawnRange::with_room() const {
   if (!is_constant()) return *this;
-  const double half = size() > drawn_rounding ? 0.1 * size() : 1;
+  const double half = size() > std::max(drawn_rounding, rounding) ? 0.1 * size() : 1;
   return {low - half, high + half};
 }
 
-bool DrawnRange::begins_at_zero() const { return low >= -drawn_rounding * high; }
+bool DrawnRange::begins_at_zero() const { return low >= -std::max(drawn_rounding * high, rounding); }
 
 std::string tic_format(const char* axis, const DrawnRange& range) {
   // gnuplot writes six digits, and from a million on powers of ten, beside numbers without.

@@ -8,7 +8,11 @@ namespace cli::inline drawings {
 /// The least and the largest of the numbers along an axis.
 struct DrawnRange {
   double low = INFINITY, high = -INFINITY;
+  double rounding = 0;  ///< of what the numbers are counted beside
 
+  /// The numbers are differences of such as large as this, or made with them: what is nothing beside these is
+  /// rounding.
+  void count_beside(double size);
   void add(double x);
   double size() const;  ///< the largest magnitude
   /// All are one number but for rounding.
