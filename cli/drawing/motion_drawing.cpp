@@ -109,29 +109,75 @@ MotionDrawing::MotionDrawing(const mechanics::LagrangianSystem& system, double b
       coordinates_(std::min(most_curves, static_cast<Index>(system.coordinates().size()))),
       constraints_(std::min(most_curves, static_cast<Index>(system.constraints().size()))) {}
 
-void MotionDrawing::add(double t, const Vector& q, const Vector& f, const Vector& lambda, double energy) {
-  points_ += fmt::format("{}", t);
-  for (Index i = 0; i < coordinates_; ++i) points_ += fmt::format(" {}", q[i]);
-  for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", f[a]);
-  for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", lambda[a]);
-  points_ += fmt::format(" {}\n", energy);
-  energies_.add(energy);
-  for (Index i = 0; i < coordinates_; ++i) positions_.add(q[i]);
-  for (Index a = 0; a < constraints_; ++a) gaps_.add(f[a]), forces_.add(lambda[a]);
-  ++point_;
+double MotionDrawing::time(double point) const {
+  return begin_ + (end_ - begin_) * point / static_cast<double>(points - 1);
+}
+
+Vector MotionDrawing::row(const mechanics::State& state, const Vector& lambda) {
+  const mechanics::ConstraintRates rates = system_.constraint_rates(state);
+  for (Index a = 0; a < constraints_; ++a) gaps_.count_beside(rates.f_scale[a]);
+  return row(state, rates.f, lambda);
+}
+
+Vector MotionDrawing::row(const mechanics::Arc& arc, double tau) {
+  if (arc.f.rows() == 0) return row(arc.state(tau), arc.multipliers(tau));
+  Vector f(constraints_);
+  for (Index a = 0; a < constraints_; ++a) f[a] = mechanics::value_at(mechanics::coefficients(arc.f, a), tau);
+  return row(arc.state(tau), f, arc.multipliers(tau));
+}
+
+Vector MotionDrawing::row(const mechanics::State& state, const Vector& f, const Vector& lambda) {
+  mechanics::State at_rest = state;
+  at_rest.v.setZero();
+  const double energy = system_.energy(state), potential = system_.energy(at_rest);
+  energies_.count_beside(std::max(std::abs(potential), std::abs(energy - potential)));
+  Vector drawn(coordinates_ + 2 * constraints_ + 1);
+  drawn << state.q.head(coordinates_), f.head(constraints_), lambda.head(constraints_), energy;
+  return drawn;
+}
+
+void MotionDrawing::add(double t, const Vector& row) {
+  if (passed_ > 0) {
+    passed_ = 0;
+    for (const Vector& extreme : {least_, most_}) add(time(static_cast<double>(point_) - 0.5), extreme);
+  }
+  points_ += fmt::format("{} {}\n", t, fmt::join(row, " "));
+  for (Index k = 0; k < row.size(); ++k) {
+    const Index of_constraint = k - coordinates_;
+    (of_constraint < 0                  ? positions_
+     : of_constraint < constraints_     ? gaps_
+     : of_constraint < 2 * constraints_ ? forces_
+                                        : energies_)
+        .add(row[k]);
+  }
+}
+
+void MotionDrawing::pass(const Vector& row) {
+  least_ = passed_ > 0 ? Vector(least_.cwiseMin(row)) : row;
+  most_ = passed_ > 0 ? Vector(most_.cwiseMax(row)) : row;
+  ++passed_;
 }
 
 void MotionDrawing::follow(const mechanics::Motion& motion) {
   const mechanics::Arc& arc = motion.arc();
-  for (; point_ < points;) {
-    const double t = begin_ + (end_ - begin_) * static_cast<double>(point_) / static_cast<double>(points - 1);
+  const long first = point_;
+  for (; point_ < points; ++point_) {
+    const double t = time(static_cast<double>(point_));
     if (!(t < motion.state().t)) break;
-    const double tau = std::clamp(t - arc.t, 0.0, arc.length);
-    const bool is_series = arc.f.rows() > 0;
-    Vector f = is_series ? Vector(constraints_) : system_.constraint_rates(arc.state(tau)).f;
-    for (Index a = 0; is_series && a < constraints_; ++a)
-      f[a] = mechanics::value_at(mechanics::coefficients(arc.f, a), tau);
-    add(t, arc.position(tau), f, arc.multipliers(tau), system_.energy(arc.state(tau)));
+    add(t, row(arc, std::clamp(t - arc.t, 0.0, arc.length)));
+  }
+  // What is shorter than the points are apart is seen in its middle and at its ends.
+  const bool is_between = point_ == first && arc.length > 0;
+  constexpr long most_passed = 16;  // of a crowd of impacts the first are enough
+  const bool is_more_of_a_crowd =
+      passed_ >= most_passed &&
+      std::all_of(motion.events().begin(), motion.events().end(),
+                  [](const auto& event) { return event.kind == mechanics::EventKind::impact; });
+  if (is_between && !is_more_of_a_crowd) pass(row(arc, arc.length / 2));
+  if (!motion.events().empty() && point_ > 0 && !is_more_of_a_crowd) {
+    pass(row(arc, arc.length));
+    if (motion.multipliers().size() == static_cast<Index>(system_.constraints().size()))
+      pass(row(motion.state(), motion.multipliers()));
   }
   for (const mechanics::MotionEvent& event : motion.events())
     events_.emplace(event.kind,
@@ -140,8 +186,7 @@ void MotionDrawing::follow(const mechanics::Motion& motion) {
 
 void MotionDrawing::finish(const mechanics::Motion& motion) {
   if (motion.multipliers().size() != static_cast<Index>(system_.constraints().size())) return;
-  add(motion.state().t, motion.state().q, system_.constraint_rates(motion.state()).f, motion.multipliers(),
-      motion.energy());
+  add(motion.state().t, row(motion.state(), motion.multipliers()));
 }
 
 Drawing MotionDrawing::drawing(const std::string& title) const {

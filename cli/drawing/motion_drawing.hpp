@@ -24,13 +24,21 @@ class MotionDrawing {
   Drawing drawing(const std::string& title) const;
 
  private:
-  void add(double t, const convex::Vector& q, const convex::Vector& f, const convex::Vector& lambda,
-           double energy);
+  /// What is drawn of an instant: q, f, lambda and T + V.
+  convex::Vector row(const mechanics::State&, const convex::Vector& lambda);
+  convex::Vector row(const mechanics::State&, const convex::Vector& f, const convex::Vector& lambda);
+  convex::Vector row(const mechanics::Arc&, double tau);
+  void add(double t, const convex::Vector& row);
+  /// An instant between two points, of which the extremes of all such are drawn before the next point.
+  void pass(const convex::Vector& row);
+  double time(double point) const;
 
   const mechanics::LagrangianSystem& system_;
   double begin_, end_;
   convex::Index coordinates_, constraints_;  // that are drawn
   long point_ = 0;
+  convex::Vector least_, most_;  // passed since the last point; empty if nothing is
+  long passed_ = 0;
   std::string points_;
   DrawnRange positions_, gaps_, forces_, energies_;
   std::set<std::pair<mechanics::EventKind, long>> events_;  // where they are marked

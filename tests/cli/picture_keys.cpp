@@ -102,6 +102,21 @@ TEST_CASE("a few events of a motion are lines, many are marks above the diagrams
   CHECK(lines_across("1.5") >= lines_across("8") + 4);  // in each of four diagrams
 }
 
+TEST_CASE("what is pressed for less time than the points of a picture are apart is drawn as high as it is") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  // The ball comes to rest on a table that throws it again, 200 times: 1201 points miss most of the rests.
+  const std::string svg =
+      drawn({"simulate",
+             folder.write("a.toml",
+                          "[system]\ncoordinates = [\"y\"]\nkinetic = \"m/2*y'^2\"\npotential = "
+                          "\"m*g*y\"\nparameters = { m = 0.2, g = 9.81, A = 0.003, w = \"40*pi\" }\n"
+                          "constraints = { table = \"y >= A*sin(w*t)\" }\n[state]\nposition = { y = 0 "
+                          "}\nvelocity = { y = \"A*w\" }\n[simulate]\nuntil = 20\nrestitution = 0.2\n")},
+            folder.path("a.svg"));
+  CHECK(times(svg_texts(svg), "12") == 1);  // m (g + A w^2) = 11.4 at the axis of lambda
+}
+
 TEST_CASE("sets of contacts whose long names begin alike are told apart in a sweep and on its map") {
   if (!cli::has_gnuplot()) return;
   const Folder folder;
