@@ -1,6 +1,7 @@
 #include "cli/commands/branch_event.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <functional>
 
@@ -42,6 +43,8 @@ const char* event_name(BranchEvent event) {
       return "torus";
     case BranchEvent::grazing:
       return "grazing";
+    case BranchEvent::opening:
+      return "opening";
     case BranchEvent::none:
       return "";
   }
@@ -57,7 +60,17 @@ long impacts_of(const mechanics::Orbit& orbit, convex::Index constraint, const m
                        [&](const mechanics::MotionEvent& impact) { return has(impact.constraints); });
 }
 
+convex::Index opened_contact(const mechanics::Orbit& before, const mechanics::Orbit& now) {
+  for (std::size_t a = 0; a < std::min(before.releases.size(), now.releases.size()); ++a) {
+    const mechanics::Orbit& holds = before.releases[a] < now.releases[a] ? before : now;
+    const auto contact = static_cast<convex::Index>(a);
+    if (before.releases[a] != now.releases[a] && std::isfinite(holds.least_pressing[contact])) return contact;
+  }
+  return -1;
+}
+
 BranchEvent event_between(const mechanics::Orbit& before, const mechanics::Orbit& now, bool is_free) {
+  if (opened_contact(before, now) >= 0) return BranchEvent::opening;
   const bool is_crowd = !before.accumulating.empty() || !now.accumulating.empty();
   bool has_other_impacts = !is_crowd && before.impacts.size() != now.impacts.size();
   for (convex::Index a = 0; a < now.least_gap.size(); ++a)

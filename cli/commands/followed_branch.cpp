@@ -183,8 +183,9 @@ bool FollowedBranch::follows(const Station& next) const {
 
 bool FollowedBranch::has_its_impacts(const Station& next) {
   const Station last = trail_.back();
-  if (grazed(last, next) < 0 || !last.orbit.multipliers || !next.orbit.multipliers) return true;
-  BranchEvent event = BranchEvent::grazing;
+  const bool opens = opened_contact(last.orbit, next.orbit) >= 0;
+  if ((!opens && grazed(last, next) < 0) || !last.orbit.multipliers || !next.orbit.multipliers) return true;
+  BranchEvent event = opens ? BranchEvent::opening : BranchEvent::grazing;
   const bool is_behind_graze = locate(last, next, event).has_value();
   is_lost_ = false;
   return is_behind_graze;

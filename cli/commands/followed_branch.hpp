@@ -85,8 +85,10 @@ class FollowedBranch {
   Passage behind(const Station& at, const Station& before, const Station& after, BranchEvent event);
   /// The contact of which one of them has more impacts, or -1.
   static convex::Index grazed(const Station& a, const Station& b);
-  /// Where the gap, or the speed of the impact, of a contact comes to 0 behind two orbits, before `beyond`.
-  std::optional<Station> locate_grazing(const Station& a, const Station& b, double beyond, convex::Index);
+  /// Where the gap, or the speed of the impact, of a contact comes to 0 behind two orbits, before `beyond`; of
+  /// an opening, its multiplier.
+  std::optional<Station> locate_grazing(const Station& a, const Station& b, double beyond, convex::Index,
+                                        BranchEvent event = BranchEvent::grazing);
 
   /// The graze at which the impacts of a contact end, from orbits that lack them beside the value to which
   /// its speed leads: Newton's method finds these however near, and those with the impact only from nearby.

@@ -40,6 +40,20 @@ double where_zero(const std::vector<std::pair<double, double>>& points) {
 /// A secant of the distance from the unit circle, held between the two orbits (the Illinois rule, Dowell and
 /// Jarratt 1971); halving where there is none.
 std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station b, BranchEvent& event) {
+  if (event == BranchEvent::opening) {
+    const Index contact = opened_contact(a.orbit, b.orbit);
+    const auto k = static_cast<std::size_t>(contact);
+    const bool from_a = a.orbit.releases[k] < b.orbit.releases[k];
+    const Station &here = from_a ? a : b, &there = from_a ? b : a;
+    for (const double part : {-0.1, 0.1}) {  // beside the last orbit that holds the contact
+      const auto beside = attempt_along(here, there, here.value + part * (there.value - here.value));
+      if (!beside || beside->orbit.releases != here.orbit.releases) continue;
+      const Station &first = part < 0 ? *beside : here, &second = part < 0 ? here : *beside;
+      if (const auto at = locate_grazing(first, second, there.value, contact, event))
+        return behind(*at, a, b, event);
+    }
+    return std::nullopt;
+  }
   if (event == BranchEvent::grazing)
     if (const Index contact = grazed(a, b); contact >= 0) {
       bool has_none = false;  // told by where the gap, or the speed, goes
@@ -125,12 +139,18 @@ Index FollowedBranch::grazed(const Station& a, const Station& b) {
 }
 
 std::optional<FollowedBranch::Station> FollowedBranch::locate_grazing(const Station& a, const Station& b,
-                                                                      double beyond, Index contact) {
-  const bool has_impact = a.orbit.least_gap[contact] == std::numeric_limits<double>::infinity();
+                                                                      double beyond, Index contact,
+                                                                      BranchEvent event) {
+  const bool opens = event == BranchEvent::opening,
+             has_impact = a.orbit.least_gap[contact] == std::numeric_limits<double>::infinity();
   const auto nearness = [&](const mechanics::Orbit& orbit) {
-    return has_impact ? orbit.least_closing[contact] : orbit.least_gap[contact];
+    return opens        ? orbit.least_pressing[contact]
+           : has_impact ? orbit.least_closing[contact]
+                        : orbit.least_gap[contact];
   };
-  const std::size_t impacts = a.orbit.impacts.size();
+  const auto is_alike = [&](const mechanics::Orbit& orbit) {
+    return opens ? orbit.releases == a.orbit.releases : orbit.impacts.size() == a.orbit.impacts.size();
+  };
   std::vector<std::pair<double, double>> points{{a.value, nearness(a.orbit)}, {b.value, nearness(b.orbit)}};
   std::vector<Station> met{a, b};
   double before = std::numeric_limits<double>::quiet_NaN();
@@ -152,7 +172,7 @@ std::optional<FollowedBranch::Station> FollowedBranch::locate_grazing(const Stat
       return Station{zero, now.orbit};
     }
     const auto is_nearer = [&](const std::optional<Station>& found) {
-      return found && found->orbit.impacts.size() == impacts && nearness(found->orbit) < points.back().second;
+      return found && is_alike(found->orbit) && nearness(found->orbit) < points.back().second;
     };
     auto found = attempt_along(met[met.size() - 2], now, next);
     if (!is_nearer(found)) found = attempt_by_polynomial(met, next);

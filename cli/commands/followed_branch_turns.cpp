@@ -46,7 +46,9 @@ bool FollowedBranch::graze(double beyond, bool& is_on) {
   const std::size_t impacts = trail_.back().orbit.impacts.size();
   const auto go_on = [&](const Station& at) {
     is_on = begin_behind_grazing(at, impacts);
-    if (!is_on)
+    if (!is_on && points_.back().event == event_name(BranchEvent::opening))
+      why_ = "a contact that its orbit holds opens there, and none is found that goes on from it";
+    else if (!is_on)
       why_ =
           "its orbit grazes a contact there, and none is found that goes on from it; orbits with the impact "
           "may come back beside those without it: begin at one, found from other states, and its branch "
@@ -56,11 +58,12 @@ bool FollowedBranch::graze(double beyond, bool& is_on) {
   if (!trail_.back().orbit.multipliers) return go_on(Station(trail_.back()));  // told already
   const auto [near, none] = approach(beyond);
   const double reach = none + grazing_reach * (none - near.value);
-  for (Index contact = 0; contact < near.orbit.least_gap.size(); ++contact)
-    if (const auto at = locate_grazing(trail_[trail_.size() - 2], near, reach, contact)) {
-      row(*at, BranchEvent::grazing);
-      return go_on(*at);
-    }
+  for (const BranchEvent event : {BranchEvent::opening, BranchEvent::grazing})
+    for (Index contact = 0; contact < near.orbit.least_gap.size(); ++contact)
+      if (const auto at = locate_grazing(trail_[trail_.size() - 2], near, reach, contact, event)) {
+        row(*at, event);
+        return go_on(*at);
+      }
   for (Index contact = 0; contact < near.orbit.least_gap.size(); ++contact)
     if (const auto at = locate_from_behind(contact)) {
       row(*at, BranchEvent::grazing);

@@ -49,6 +49,10 @@ struct Orbit {
   /// By constraint: the least of its gap where it turns around without a contact, and of |df/dt| at its
   /// impacts; infinite where there is none.
   Vector least_gap, least_closing;
+  /// By one-sided constraint: the least of its multiplier where it turns around while it is held, infinite
+  /// where there is none; and how often it opens.
+  Vector least_pressing;
+  std::vector<int> releases;
 };
 
 /// Its multipliers but the 1 along an orbit of free period.

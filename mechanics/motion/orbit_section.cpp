@@ -9,7 +9,7 @@
 namespace mechanics::inline motions {
 namespace {
 
-/// Points of an arc between which a gap is taken to turn around at most once.
+/// Points of an arc between which a gap, or a multiplier, is taken to turn around at most once.
 constexpr int looks_at_gap = 16;
 
 /// An instant within so many roundings of an event's is the event's.
@@ -19,7 +19,7 @@ bool is_held(const Arc& arc, Index a) {
   return std::find(arc.persist.begin(), arc.persist.end(), a) != arc.persist.end();
 }
 
-/// The least value of a gap where it turns around within an arc.
+/// The least value of a gap or a multiplier where it turns around within an arc.
 double least_turn(std::span<const double> f, double length) {
   double least = std::numeric_limits<double>::infinity(), from = 0;
   bool falls = slope_at(f, 0) < 0;
@@ -38,15 +38,24 @@ double least_turn(std::span<const double> f, double length) {
   return least;
 }
 
-void note_gaps(const Flight& flight, const LagrangianSystem& system, Orbit& orbit) {
+void note_contacts(const Flight& flight, const LagrangianSystem& system, Orbit& orbit) {
   const auto m = static_cast<Index>(system.constraints().size());
-  orbit.least_gap = orbit.least_closing = Vector::Constant(m, std::numeric_limits<double>::infinity());
+  orbit.least_gap = orbit.least_closing = orbit.least_pressing =
+      Vector::Constant(m, std::numeric_limits<double>::infinity());
+  orbit.releases.assign(system.constraints().size(), 0);
   for (const FlightPiece& piece : flight.pieces) {
     if (!(piece.arc.length > 0)) continue;
     for (Index a = 0; a < m; ++a)
       if (!is_held(piece.arc, a))
         orbit.least_gap[a] =
             std::min(orbit.least_gap[a], least_turn(coefficients(piece.arc.f, a), piece.arc.length));
+    for (const Index a : piece.arc.persist)
+      if (!system.constraints()[static_cast<std::size_t>(a)].two_sided)
+        orbit.least_pressing[a] = std::min(orbit.least_pressing[a],
+                                           least_turn(coefficients(piece.arc.lambda, a), piece.arc.length));
+    for (const MotionEvent& event : piece.events)
+      for (const Index a : event.constraints)
+        if (event.kind == EventKind::release) ++orbit.releases[static_cast<std::size_t>(a)];
     for (const MotionEvent& event : piece.events)
       for (const Index a : event.constraints)
         if (event.kind == EventKind::impact && !is_held(piece.arc, a))
@@ -58,7 +67,7 @@ void note_gaps(const Flight& flight, const LagrangianSystem& system, Orbit& orbi
 }  // namespace
 
 void note_passage(const Flight& flight, const LagrangianSystem& system, Orbit& orbit) {
-  note_gaps(flight, system, orbit);
+  note_contacts(flight, system, orbit);
   orbit.largest = flight.largest;
   const double begin = orbit.start.t, T = orbit.period;
   orbit.quiet = orbit.start;
