@@ -11,6 +11,9 @@ namespace {
   throw convex::InvalidInput("constraint " + constraint.name + ": " + what, constraint.place);
 }
 
+/// Velocities that are left out of a file are 0, which may be what is wrong.
+const char* at_rest(const State& state) { return state.v.isZero(0) ? " with all velocities 0" : ""; }
+
 }  // namespace
 
 Contacts contacts(const System& system, const State& state, const Vector& tolerance, Impending impending) {
@@ -35,8 +38,8 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
                                " at the state; move the position so that it holds, or let "
                                "`moreau assemble` find the nearest one");
       if (!(std::abs(df) <= df_zero))
-        refuse(constraint, "two-sided, but df/dt = " + number_text(df) +
-                               " at the state; choose velocities that keep it, or let "
+        refuse(constraint, "two-sided, but df/dt = " + number_text(df) + " at the state" + at_rest(state) +
+                               "; choose velocities that keep it, or let "
                                "`moreau assemble` find the nearest ones");
       found.present.push_back(a);
       continue;
@@ -49,8 +52,8 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
     if (df < -df_zero && impending == Impending::allowed)
       found.closing.push_back(a);
     else if (df < -df_zero)
-      refuse(constraint, "an impact is due, f = 0 and df/dt = " + number_text(df) +
-                             " < 0; give the velocity after the impact, or let `moreau simulate` handle it");
+      refuse(constraint, "an impact is due, f = 0 and df/dt = " + number_text(df) + " < 0" + at_rest(state) +
+                             "; give the velocity after the impact, or let `moreau simulate` handle it");
     else if (df <= df_zero)
       found.present.push_back(a);
   }

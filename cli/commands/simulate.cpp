@@ -236,6 +236,16 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
   for (const std::string& said : {followed.choice.empty() ? way.why : "", of_crowd})
     if (!said.empty()) answer.warnings.push_back(said);
+  const bool strikes_at_once = std::any_of(
+      followed.first_events.begin(), followed.first_events.end(), [&](const mechanics::MotionEvent& event) {
+        return event.kind == mechanics::EventKind::impact && event.t == state.t;
+      });
+  if (strikes_at_once && !options.resume && text->state.velocity.empty())
+    answer.warnings.push_back(
+        "[state] gives no velocity, so that all are 0, and the motion begins with an impact; give them, be "
+        "it as "
+        "velocity = { " +
+        system->coordinates().front() + " = 0 }");
   for (std::string& said : mechanics::angles_in_degrees(*system)) answer.warnings.push_back(std::move(said));
   return answer;
 }

@@ -132,6 +132,19 @@ TEST_CASE("a row at an event holds the state after it") {
   CHECK(rows[3] == "2,1.5,-0.5,0,0,0.125");
 }
 
+TEST_CASE("an impact at the start of a motion whose velocities are left out is told, and no other rest is") {
+  const auto told = [](const std::string& floor, const std::string& velocity) {
+    return run_on("simulate",
+                  "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\npotential = \"9.81*y\"\n"
+                  "[system.constraints]\nfloor = \"" +
+                      floor + "\"\n[state]\nposition = { y = 0 }\n" + velocity + "\n[simulate]\nuntil = 1\n")
+        .err;
+  };
+  CHECK(told("y >= 0.1*sin(3*t)", "").find("give them, be it as velocity = { y = 0 }") != std::string::npos);
+  CHECK(told("y >= 0.1*sin(3*t)", "velocity = { y = 0 }").empty());
+  CHECK(told("y >= 0", "").empty());
+}
+
 TEST_CASE("a restitution may be an expression in the parameters") {
   const Folder folder;
   // Free from x = 0 at speed 1 to the wall at 1, and back.
