@@ -92,8 +92,8 @@ std::string assembly_text(const LagrangianSystem& system, const Assembly& found,
     return "No state" + conditions + " was found: at " + position_text(system, found.state) +
            ", t = " + number_text(found.state.t) + " the constraints hold, but no velocity keeps " +
            fighting_text(system, found.fighting) + (is_one ? "" : " together") +
-           " (df/dt). Choose another t or guess, or change how " +
-           (is_one ? "it moves.\n" : "they move against each other.\n");
+           " (df/dt). Choose another t or guess, " + (conditions.empty() ? "" : "hold less, ") +
+           "or change how " + (is_one ? "it moves.\n" : "they move against each other.\n");
   if (found.status == AssemblyStatus::infeasible && found.proved)
     return "There is no state" + conditions + ": " + fighting_text(system, found.fighting) +
            (is_one ? " does not hold at any position" : " exclude each other at every position") +

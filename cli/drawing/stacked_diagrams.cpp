@@ -26,7 +26,7 @@ double key_height(std::size_t lines) {
 
 Drawing StackedDiagrams::page(const std::string& title) const {
   constexpr double below = 50, between = 20, least_height = 160, key_apart = 12;
-  const double above = title.empty() ? 12 : 34;
+  const double above = title.empty() ? 12 : 42;  // marks stand above a diagram
   double frame = least_height;
   std::vector<std::string> words;
   for (const std::vector<std::string>& key : keys) {
