@@ -56,18 +56,23 @@ DrawnShape drawn_shape(DrawnShape::Kind kind, const TomlEntry& entry, const std:
 }  // namespace
 
 std::vector<DrawnShape> read_draw(const TomlValue& table) {
-  require_known_keys(require_table(table, "draw"), "draw", {"points", "segments", "circles"});
+  convex::Mistakes mistakes;
+  mistakes.gather([&] {
+    require_known_keys(require_table(table, "draw"), "draw", {"points", "segments", "circles"});
+  });
   std::vector<DrawnShape> shapes;
   const auto add = [&](const char* key, DrawnShape::Kind kind) {
     const TomlValue* of_kind = table.find(key);
     if (of_kind == nullptr) return;
     const std::string where = std::string("draw.") + key;
-    for (const TomlEntry& entry : require_table(*of_kind, where).table)
-      shapes.push_back(drawn_shape(kind, entry, where + "." + shown(entry.key)));
+    mistakes.gather([&] { require_table(*of_kind, where); });
+    for (const TomlEntry& entry : of_kind->table)
+      mistakes.gather([&] { shapes.push_back(drawn_shape(kind, entry, where + "." + shown(entry.key))); });
   };
   add("segments", DrawnShape::Kind::segment);
   add("circles", DrawnShape::Kind::circle);
   add("points", DrawnShape::Kind::point);
+  mistakes.tell();
   return shapes;
 }
 

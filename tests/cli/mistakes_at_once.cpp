@@ -63,6 +63,9 @@ TEST_CASE("mistakes of a file that do not hang on each other are told at once, i
              {"2:1: unknown key \"coordinate\" in [system]; ",
               "4:13: system.potential: ", "12:1: unknown key \"velocities\" in [state]; ",
               "13:14: state.in_contact: ", "15:9: simulate.until: ", "16:8: simulate.step: "});
+  check_told(point_on_floor({{13, "[draw]\npoint = 1\npoints = { a = 1, b = [0] }\nsegments = 2"}}),
+             {"14:1: unknown key \"point\" in [draw]; ",
+              "15:16: draw.points.a: ", "15:23: draw.points.b: ", "16:12: draw.segments: "});
   check_told(point_on_floor({{11, "position = { x = \"0.0*\", y = 0.0 }"}, {12, "velocities = { x = 0.0 }"}}),
              {"11:23: position of x: ", "12:1: unknown key \"velocities\" in [state]; "});
   check_told("[decomposition]\nz = [1, \"two\"]\nf = \"norm1(\"\n", {"2:9: ", "3:"});
