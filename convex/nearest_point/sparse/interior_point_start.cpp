@@ -19,9 +19,8 @@ constexpr double first_weight = 100;
 constexpr double part_of_free = 0.1, smallest = 1e-3;
 
 /// Where no active set follows, rows as springs begin no nearer to the boundary than so many times the usual
-/// sizes, for there the first steps are short; and these are corrected so often.
+/// sizes, for there the first steps are short.
 constexpr double well_inside = 10;
-constexpr int correctors = 2;
 
 /// Of rows of the working set as they were in a problem like this one: one over the weight; the slowest
 /// corrections that are trusted; the part of what is asked to which they go on, and at most how many; the
@@ -81,7 +80,6 @@ void InteriorPointStart::start() {
 void InteriorPointStart::stand_alone(Index limit) {
   stands_alone_ = true;
   limit_ = limit;
-  step_.set_correctors(correctors);
 }
 
 /// A correction towards U q = s on the rows that look active, with multipliers of 0 on the others; its size.

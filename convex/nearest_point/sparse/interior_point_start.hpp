@@ -33,8 +33,8 @@ class InteriorPointStart {
     return problem_.two_sided[static_cast<std::size_t>(a)] || at_.lambda[a] > at_.slack[a];
   }
   Index steps() const { return steps_; }
-  /// No active set follows: it begins well inside, short steps are corrected, and `approach` ends as stalled
-  /// after so many steps in all; 0: no such limit.
+  /// No active set follows: it begins well inside, and `approach` ends as stalled after so many steps in all;
+  /// 0: no such limit.
   void stand_alone(Index limit);
 
  private:

@@ -15,17 +15,12 @@ struct InteriorPointState {
   Vector q, slack, lambda;
 };
 
-/// Mehrotra's predictor-corrector step (1992) for A q - Uᵀlambda = z, U q - slack = s, slack ∘ lambda = 0,
-/// with Gondzio's correctors (1996): a short step is made longer by pulling the products that it would leave
-/// far from their mean towards that, at the price of a solve with the same factor.
+/// Mehrotra's predictor-corrector step (1992) for A q - Uᵀlambda = z, U q - slack = s, slack ∘ lambda = 0.
 class MehrotraStep {
  public:
   explicit MehrotraStep(const std::vector<bool>& two_sided) : two_sided_(two_sided) {
     for (const bool is : two_sided) one_sided_count_ += !is;
   }
-
-  /// Correctors of a step, at most: none unless told.
-  void set_correctors(int most) { most_correctors_ = most; }
 
   bool one_sided(Index a) const { return !two_sided_[static_cast<std::size_t>(a)]; }
   double count() const { return static_cast<double>(std::max<Index>(1, one_sided_count_)); }
@@ -46,7 +41,7 @@ class MehrotraStep {
     for (Index a = 0; a < target_.size(); ++a)
       if (one_sided(a)) target_[a] += centring * before - to_.slack[a] * to_.lambda[a];
     solve(target_, to_);
-    const double step = corrected(at, short_of_boundary, centring * before, solve);
+    const double step = std::min(1.0, short_of_boundary * longest(at));
     at.q += step * to_.q;
     at.slack += step * to_.slack;
     at.lambda += step * to_.lambda;
@@ -54,35 +49,6 @@ class MehrotraStep {
   }
 
  private:
-  /// No correctors where a step is this long; products are to be within a factor of
-  /// their mean for a step that much longer, of which a corrector must gain a part to be followed by another.
-  static constexpr double long_step = 0.9, longer_by = 0.3, factor = 10, gain = 0.1;
-
-  template <class Solve>
-  double corrected(const InteriorPointState& at, double short_of_boundary, double mean, Solve solve) {
-    const auto length = [&] { return std::min(1.0, short_of_boundary * longest(at)); };
-    double step = length();
-    for (int k = 0; k < most_correctors_ && step < long_step; ++k) {
-      const double ahead = std::min(1.0, step + longer_by);
-      for (Index a = 0; a < target_.size(); ++a) {
-        if (!one_sided(a)) continue;
-        const double product = (at.slack[a] + ahead * to_.slack[a]) * (at.lambda[a] + ahead * to_.lambda[a]);
-        target_[a] += std::max(std::clamp(product, mean / factor, factor * mean) - product, -factor * mean);
-      }
-      std::swap(before_, to_);
-      solve(target_, to_);
-      const double longer = length();
-      if (longer < step) {
-        std::swap(before_, to_);
-        break;
-      }
-      const bool is_worth_it = longer >= step + gain * longer_by;
-      step = longer;
-      if (!is_worth_it) break;
-    }
-    return step;
-  }
-
   /// The step that keeps slack and lambda nonnegative.
   double longest(const InteriorPointState& at) const {
     double step = infinity;
@@ -97,8 +63,7 @@ class MehrotraStep {
   const std::vector<bool>& two_sided_;
   Index one_sided_count_ = 0;
   Vector target_;
-  InteriorPointState to_, before_;
-  int most_correctors_ = 0;
+  InteriorPointState to_;
 };
 
 }  // namespace convex::inline sparse
