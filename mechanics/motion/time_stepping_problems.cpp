@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/sparse/proportioned_gradients.hpp"
 #include "convex/nearest_point/sparse/sparse_active_set.hpp"
 #include "convex/nearest_point/sparse/sparse_interior_point.hpp"
 #include "mechanics/motion/time_stepping.hpp"
@@ -15,10 +14,8 @@ namespace {
 constexpr double roundings_of_step_rows = 16;
 
 /// Where very many rows change, velocities are found to this part of their size, far below the error of the
-/// scheme, after a first one with rows that are not those of the middle of the step yet; by gradients if so
-/// many steps of them are enough.
+/// scheme, after a first one with rows that are not those of the middle of the step yet.
 constexpr double first_velocity_part = 1e-4, velocity_part = 1e-7;
-constexpr Index most_warm_steps = 60;
 
 /// They are taken, and their error is told, where the method ends within the first part, or within the second
 /// where the active set does not settle either.
@@ -98,13 +95,6 @@ convex::Solution Motion::TimeStepping::solution_of(Repeated& repeated,
   Vector before(problem.rows());
   for (std::size_t k = 0; k < constraints.size(); ++k)
     before[static_cast<Index>(k)] = repeated.lambda[constraints[k]];
-  if (large && effort == Effort::warm && is_crowded_) {
-    convex::Accuracy few;
-    few.tolerance = velocity_part;
-    few.step_limit = most_warm_steps;
-    convex::Solution found = convex::proportioned_gradients(problem, few, before);
-    if (found.status == convex::Status::solved) return found;
-  }
   const auto is_found = [&](const convex::Solution& found) {
     return found.q.size() == problem.dimension() || found.status == convex::Status::infeasible;
   };
