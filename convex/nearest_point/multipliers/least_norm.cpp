@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/linear_algebra/cholesky.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
 
 namespace convex::inline multiplier_sets {
 namespace {
@@ -38,99 +38,18 @@ void take_rows_with_small_coefficients(Dependence& rows, Vector& lambda) {
   }
 }
 
-/// Where the rows with a multiplier do not span the others, the model has no least point; this part of the
-/// squared lengths of the columns, which are 1, gives it one.
-constexpr double softness_of_columns = 0x1p-40;
-
-/// Roundings of its terms, per entry of the gradient.
-constexpr double gradient_roundings = 4;
-
-/// Of the terms of the value, within which a step to the least point may seem to rise.
-constexpr double value_roundings = 16;
-
-constexpr double enough_decrease = 1e-4;
-constexpr double shortest_step = 0x1p-40;
-constexpr int most_newton_steps = 200;
-
-/// The shortest lambda with E'lambda = E'start, E = (I; T'), and lambda_j >= 0 where not `is_free`, in place
-/// of `start`; T: k×d, start: k + d. For d >> k: lambda = (Ey)⁺, the ⁺ on signed entries, where the y of k
-/// entries minimises ½|(Ey)⁺|² - y·E'start, by Newton's method for piecewise quadratics (Mangasarian 2002, "A
-/// finite Newton method for classification"). False where rounding keeps its gradient from becoming 0.
-bool least_norm_by_newton(const Matrix& T, const std::vector<bool>& is_free, Vector& start) {
-  const Index k = T.rows(), d = T.cols();
-  const Vector length = (T.rowwise().squaredNorm().array() + 1).sqrt();
-  Matrix E(k + d, k);
-  E.topRows(k).setIdentity();
-  E.bottomRows(d) = T.transpose();
-  E *= length.cwiseInverse().asDiagonal();
-  const Vector r = E.transpose() * start;
-  const auto positive = [&](Vector lambda) {
-    for (Index j = 0; j < k + d; ++j)
-      if (!is_free[at(j)]) lambda[j] = std::max(0.0, lambda[j]);
-    return lambda;
-  };
-  const auto value = [&](const Vector& y, const Vector& lambda) {
-    return 0.5 * lambda.squaredNorm() - r.dot(y);
-  };
-  Vector y = Vector::Zero(k), lambda = Vector::Zero(k + d);
-  for (int step = 0; step < most_newton_steps; ++step) {
-    const Vector gradient = E.transpose() * lambda - r;
-    const Vector terms = E.cwiseAbs().transpose() * lambda.cwiseAbs() + r.cwiseAbs();
-    const double roundings = gradient_roundings * std::sqrt(static_cast<double>(k + d));
-    if ((gradient.cwiseAbs().array() <= roundings * unit_roundoff * terms.array()).all()) {
-      start = lambda;
-      return true;
-    }
-    Matrix loaded = E;
-    for (Index j = 0; j < k + d; ++j)
-      if (step > 0 && !is_free[at(j)] && !(lambda[j] > 0)) loaded.row(j).setZero();
-    Matrix H = loaded.transpose() * loaded;
-    H.diagonal().array() += softness_of_columns;
-    const linear_algebra::Cholesky factor(H);
-    if (!factor.is_definite()) return false;
-    const Vector direction = -factor.solve(gradient);
-    const double slope = gradient.dot(direction);
-    const double before = value(y, lambda) + value_roundings * unit_roundoff *
-                                                 (lambda.squaredNorm() + r.cwiseAbs().dot(y.cwiseAbs()));
-    double part = 1;
-    Vector next = y + direction, of_next = positive(E * next);
-    while (value(next, of_next) > before + enough_decrease * part * slope && part > shortest_step) {
-      part /= 2;
-      next = y + part * direction;
-      of_next = positive(E * next);
-    }
-    y = next;
-    lambda = of_next;
-  }
-  return false;
-}
-
 /// Of one group, beside whatever the others have; false where none are found.
-bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_free, Vector& lambda) {
+bool least_norm_of_group(const NearestPointProblem& problem, const Dependence& rows,
+                         const std::vector<bool>& is_free, Vector& lambda) {
   const Index d = rows.T.cols(), k = rows.T.rows();
   std::vector<Index> names = rows.basic;
   names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
   Vector start(k + d);
   for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[at(j)]];
-  const auto take = [&](const Vector& best) {
-    const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
-    for (Index j = 0; j < k + d; ++j) {
-      const Index a = names[at(j)];
-      lambda[a] = std::abs(best[j]) <= noise ? 0 : best[j];
-      if (!is_free[at(a)]) lambda[a] = std::max(0.0, lambda[a]);
-    }
-  };
-  // From here on the d×d matrix below is slower than a few k×k ones: of a thousand rows through one point it
-  // takes seconds.
+  // From here on the d×d matrix below is slower than the sparse method, to which these are few equations: of
+  // a thousand rows through one point it takes seconds.
   constexpr Index many = 100;
-  if (d > std::max(k, many)) {
-    std::vector<bool> free;
-    for (Index a : names) free.push_back(is_free[at(a)]);
-    if (Vector best = start; least_norm_by_newton(rows.T, free, best)) {
-      take(best);
-      return true;
-    }
-  }
+  if (d > std::max(k, many) && least_norm_multipliers(problem, names, lambda)) return true;
   Matrix N(k + d, d);
   N.topRows(k) = -rows.T;
   N.bottomRows(d).setIdentity();
@@ -142,14 +61,20 @@ bool least_norm_of_group(const Dependence& rows, const std::vector<bool>& is_fre
   for (Index j = 0; j < k + d; ++j)
     if (!is_free[at(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);
   const ConstraintRows all{RowMatrix(N)};
-  NearestPointProblem problem{
+  NearestPointProblem shortest{
       Metric::dense(N.transpose() * N), -N.transpose() * start, all.select(signed_rows), Vector(), {}};
-  problem.s.resize(static_cast<Index>(signed_rows.size()));
+  shortest.s.resize(static_cast<Index>(signed_rows.size()));
   for (std::size_t j = 0; j < signed_rows.size(); ++j)
-    problem.s[static_cast<Index>(j)] = -start[signed_rows[j]];
-  const Solution solution = active_set(problem, {.limit = 0});
+    shortest.s[static_cast<Index>(j)] = -start[signed_rows[j]];
+  const Solution solution = active_set(shortest, {.limit = 0});
   if (solution.q.size() != d) return false;
-  take(start + N * solution.q);
+  const Vector best = start + N * solution.q;
+  const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
+  for (Index j = 0; j < k + d; ++j) {
+    const Index a = names[at(j)];
+    lambda[a] = std::abs(best[j]) <= noise ? 0 : best[j];
+    if (!is_free[at(a)]) lambda[a] = std::max(0.0, lambda[a]);
+  }
   return true;
 }
 
@@ -191,7 +116,7 @@ bool least_norm(const NearestPointProblem& problem, const Solution& solution, st
   const auto missing = [&] { return problem.A.dual_norm(problem.U.transpose_times(lambda) - reaction); };
   for (Dependence& rows : groups) {
     take_rows_with_small_coefficients(rows, lambda);
-    if (!least_norm_of_group(rows, is_free, lambda)) return false;
+    if (!least_norm_of_group(problem, rows, is_free, lambda)) return false;
   }
   constexpr int most_refinements = 3;
   constexpr double roundings = 64 * unit_roundoff;
@@ -201,7 +126,7 @@ bool least_norm(const NearestPointProblem& problem, const Solution& solution, st
     const Vector before = lambda;
     if (!put_missing_reaction_on_basis(problem, reaction, groups, lambda)) break;
     const bool is_found = std::all_of(groups.begin(), groups.end(), [&](const Dependence& rows) {
-      return least_norm_of_group(rows, is_free, lambda);
+      return least_norm_of_group(problem, rows, is_free, lambda);
     });
     const double was = left;
     left = missing();
