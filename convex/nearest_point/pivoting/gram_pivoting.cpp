@@ -14,12 +14,11 @@ constexpr Index rooms = 2, rooms_up_to_200 = 3, unfilled = 128;
 /// Where no more than one row in so many changes, the factor is brought up to date; else it is made anew.
 constexpr Index most_changes = 6;
 
-/// Blocks that do not lower the number of wrong rows before pivoting among all rows has lost its way; and
-/// among those looked at, where single steps follow.
-constexpr int patience = 4, patience_by_parts = 2;
+/// Blocks that do not lower the number of wrong rows before pivoting has lost its way.
+constexpr int patience = 4;
 
-/// Up to so many rows a coordinate all rows are looked at again after each block; beyond, parts of them are
-/// settled first.
+/// Up to so many rows a coordinate all rows are looked at again after each block; beyond, single steps are
+/// quicker.
 constexpr Index few_per_coordinate = 4;
 
 /// The part of the violated rows that comes in at once, up to `small` coordinates and beyond.
@@ -144,8 +143,7 @@ bool GramPivoting::settle_again() {
     if (state_[a] == passed) state_[a] = outside;
   steps_ = 0;
   start_pivoting();
-  by_single_steps_ = true;  // little is wrong
-  return pivot_by_parts();
+  return pivot_by_single_steps();  // little is wrong
 }
 
 bool GramPivoting::keep_working_set() {
@@ -174,28 +172,21 @@ void GramPivoting::start_pivoting() {
 
 bool GramPivoting::pivot() {
   start_pivoting();
-  return (m_ <= few_per_coordinate * n_ && pivot_by_blocks(Among::all)) || pivot_by_parts();
+  return (m_ <= few_per_coordinate * n_ && pivot_by_blocks()) || pivot_by_single_steps();
 }
 
 /// Block pivoting (Júdice and Pires 1994): the rows whose multiplier is negative go, a block of those
 /// violated comes in, until none is wrong. False when their number has not come down for some blocks.
-bool GramPivoting::pivot_by_blocks(Among among) {
-  const bool all = among == Among::all;
+bool GramPivoting::pivot_by_blocks() {
   Index fewest = m_ + 1;
-  for (int impatience = 0; impatience <= (all ? patience : patience_by_parts);) {
-    if (!find_multipliers() || (all && by_single_steps_)) return false;
-    if (all)
-      find_slacks();
-    else
-      find_slacks_of_known();
-    const Index count = list_violated(outside, among);
+  for (int impatience = 0; impatience <= patience;) {
+    if (!find_multipliers() || by_single_steps_) return false;
+    find_slacks();
+    const Index count = list_violated(outside);
     // At a vertex, of which there may be many where rows just hold, single steps do not lose their way.
-    if (all && set_.size() == n_ && has_negative()) {
-      by_single_steps_ = true;
-      return false;
-    }
+    if (set_.size() == n_ && has_negative()) return false;
     const Index leaving = drop_negative();
-    if (leaving + count == 0) return list_violated(passed, among) == 0;
+    if (leaving + count == 0) return list_violated(passed) == 0;
     impatience = leaving + count < fewest ? 0 : impatience + 1;
     fewest = std::min(fewest, leaving + count);
     const Index room = std::min(block_of(count), capacity_ - (set_.size() - leaving));
@@ -209,17 +200,11 @@ double GramPivoting::counted_violation() const {
 }
 
 /// Lists the rows in that state that the point found violates.
-Index GramPivoting::list_violated(State state, Among among) {
+Index GramPivoting::list_violated(State state) {
   const double scale = counted_violation();
   Index count = 0;
-  const auto look_at = [&](Index a) {
+  for (Index a = 0; a < m_; ++a)
     if (state_[a] == state && slack_[a] < -row_scale_[a] * scale) list_[count++] = a;
-  };
-  if (among == Among::all)
-    for (Index a = 0; a < m_; ++a) look_at(a);
-  else
-    for (Index p = 0; p < rows_.count(); ++p)
-      if (const Index a = rows_.row(p); a >= 0) look_at(a);
   return count;
 }
 

@@ -9,8 +9,8 @@ namespace convex::inline pivoting {
 
 /// Principal pivoting by blocks (Júdice and Pires 1994; Kunisch and Rendl 2003) on the Gram matrix of
 /// whitened rows: the deepest of the violated rows come in and rows with a multiplier that is not positive go
-/// out, all at once, until none is wrong. With few rows the Gram matrix has all of them; with many, those
-/// that came in.
+/// out, all at once, until none is wrong; single steps of the dual method (Goldfarb and Idnani 1983) where
+/// blocks do not lead there. With few rows the Gram matrix has all of them; with many, those that came in.
 class GramPivoting {
  public:
   /// A row of the working set of which less than this part, squared, lies outside the span of the others:
@@ -85,17 +85,16 @@ class GramPivoting {
 
  private:
   /// clear_outside, clear: of rows that `clear_rows` has found to be so.
-  enum class Among { all, known };  ///< rows; known: looked at
   enum State : Index { outside, passed, clear_outside, held, clear, two_sided };
 
   bool all_known() const;
   bool start(const std::vector<Index>& guess);
   void start_pivoting();
   bool pivot();
-  bool pivot_by_blocks(Among among);
+  bool pivot_by_blocks();
   Index block_of(Index violated) const;
   double counted_violation() const;
-  Index list_violated(State state, Among among);
+  Index list_violated(State state);
   bool has_negative() const;
   Index drop_negative();
   Index choose_deepest(Index count, Index room);
@@ -103,9 +102,8 @@ class GramPivoting {
   bool take_in(Index count);
   Index fill_block(Index fresh);
   void change(Index count);
-  bool pivot_by_parts();
+  bool pivot_by_single_steps();
   Index fill_up(Index count);
-  void find_slacks_of_known();
   bool descend_known();
   bool drop_most_negative();
   bool raise_in_turn(Index count);

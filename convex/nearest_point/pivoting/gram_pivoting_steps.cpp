@@ -18,6 +18,55 @@ constexpr double still_deep = 0.5;
 
 }  // namespace
 
+/// The dual method on all rows, those that are violated eight at a time: what has been looked at is settled
+/// before all are looked at again. It only grows and its dual objective with it, so this ends.
+bool GramPivoting::pivot_by_single_steps() {
+  by_single_steps_ = true;
+  Index count_held = 0, kept = 0;
+  for (Index a = 0; a < m_; ++a) {
+    if (state_[a] == passed) state_[a] = outside;
+    count_held += holds(a);
+  }
+  for (Index j = 0; j < set_.size(); ++j) kept += holds(row(j));
+  if (kept < count_held || kept < set_.size() || !set_.is_factored()) collect();
+  while (descend_known()) {
+    if (all_known()) return true;
+    find_slacks();
+    Index count = list_violated(outside);
+    if (count == 0) return true;
+    count = choose_deepest(count, 8);
+    for (Index k = 0; k < count; ++k)
+      if (rows_.place(list_[k]) >= 0) return false;  // settled, and yet violated: doubles do not tell
+    steps_ += count;
+    if (!rows_.add(list_, fill_up(count))) return false;
+  }
+  return false;
+}
+
+/// Where rows are repeated or are multiples of each other, as some have turned out to be, the first `count`
+/// of the list hold them in groups, one as deep as the other: one of each is left.
+Index GramPivoting::skip_parallel_rows(Index count) {
+  const double* U = problem_.U.dense().data();
+  const auto depth = [&](Index a) { return slack_[a] / row_scale_[a]; };
+  std::sort(list_, list_ + count, [&](Index a, Index b) { return depth(a) < depth(b); });
+  Index kept = 0;
+  for (Index k = 0; k < count; ++k) {
+    bool repeats = false;
+    for (Index l = kept; l-- > 0 && !repeats && are_alike(depth(list_[l]), depth(list_[k]));)
+      repeats = is_multiple(n_, U + list_[l] * n_, U + list_[k] * n_);
+    if (!repeats) list_[kept++] = list_[k];
+  }
+  return kept;
+}
+
+/// Fills the list up to a whole block with rows that have not been looked at. Its new length.
+Index GramPivoting::fill_up(Index count) {
+  const Index chosen = count;
+  for (Index a = 0; a < m_ && count % 8 != 0; ++a)
+    if (rows_.place(a) < 0 && std::find(list_, list_ + chosen, a) == list_ + chosen) list_[count++] = a;
+  return count;
+}
+
 /// The dual method of Goldfarb and Idnani (1983) among the rows looked at, for what blocks do not settle:
 /// a violated row comes in, its multiplier raised until it holds; on the way those whose multiplier comes
 /// down to 0 go. Each row that has come in raises the dual objective, so that no set of rows returns. False
