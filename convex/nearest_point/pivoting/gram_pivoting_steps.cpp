@@ -16,6 +16,19 @@ constexpr Index most_in_turn = 4;
 /// The part of its violation that a row has to keep meanwhile.
 constexpr double still_deep = 0.5;
 
+/// Whether numbers and rows repeat each other, as far as a choice of rows needs: those left out are looked at
+/// again. `is_multiple`: whether u is v times a positive number, n entries.
+bool are_alike(double x, double y) {
+  constexpr double alike = 1e-9;
+  return std::abs(x - y) <= alike * std::abs(x);
+}
+
+bool is_multiple(Index n, const double* u, const double* v) {
+  const Index first = std::find_if(v, v + n, [](double x) { return x != 0; }) - v;
+  const double ratio = first < n ? u[first] / v[first] : 0;
+  return ratio > 0 && std::equal(u, u + n, v, [&](double x, double y) { return are_alike(x, y * ratio); });
+}
+
 }  // namespace
 
 /// The dual method on all rows, those that are violated eight at a time: what has been looked at is settled

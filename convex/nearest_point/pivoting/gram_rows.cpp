@@ -1,20 +1,8 @@
 #include "convex/nearest_point/pivoting/gram_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace convex::inline pivoting {
-
-bool are_alike(double x, double y) {
-  constexpr double alike = 1e-9;
-  return std::abs(x - y) <= alike * std::abs(x);
-}
-
-bool is_multiple(Index n, const double* u, const double* v) {
-  const Index first = std::find_if(v, v + n, [](double x) { return x != 0; }) - v;
-  const double ratio = first < n ? u[first] / v[first] : 0;
-  return ratio > 0 && std::equal(u, u + n, v, [&](double x, double y) { return are_alike(x, y * ratio); });
-}
 
 GramRows::GramRows(const NearestPointProblem& problem, Arena& arena, Index most, const double* w_free)
     : problem_(problem),

@@ -5,11 +5,6 @@
 
 namespace convex::inline pivoting {
 
-/// Whether numbers and rows repeat each other, as far as a choice of rows needs: those left out are looked at
-/// again. `is_multiple`: whether u is v times a positive number, n entries.
-bool are_alike(double x, double y);
-bool is_multiple(Index n, const double* u, const double* v);
-
 /// Rows of a dense problem that have been looked at, by eights side by side (`DenseKernels`), as they are and
 /// whitened, v_a = L⁻¹u_a, with the Gram matrix of the latter. Each has a place; places without a row hold
 /// zeros.

@@ -40,7 +40,7 @@ constexpr SmallKernels small_table{
     Compiled<W, &All::measure>::at,        Compiled<W, &All::measure_balance>::at,
     Compiled<W, &Four::find_column>::at,   Compiled<W, &Four::dual_rows>::at,
     Compiled<W, &Four::close_rows>::at,    Compiled<W, &Four::rough_lengths>::at,
-    Compiled<W, &Four::deepest>::at,       Compiled<W, &Four::deepest_known>::at};
+    Compiled<W, &Four::deepest>::at};
 
 const SmallKernels* const small_tables[] = {&small_table<2, SmallTableauSizes<2, false>>,
 #ifdef MOREAU_HAS_FAMILIES

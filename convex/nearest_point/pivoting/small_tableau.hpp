@@ -107,9 +107,6 @@ struct SmallKernels {
   /// length, and how deep, negative for violated ones: 8 each, for k = 0, ..., 7.
   void (*deepest)(Index m, Index n, const double* U, const double* q, const double* s,
                   const double* inverse_length, double* slack, double* depth, double* row);
-  /// The same for slacks that are known.
-  void (*deepest_known)(Index m, const double* slack, const double* inverse_length, double* depth,
-                        double* row);
 };
 
 const SmallKernels& small_kernels();

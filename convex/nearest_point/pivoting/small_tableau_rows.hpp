@@ -196,40 +196,19 @@ struct SmallTableauRows : Kernels<W, Fused> {
     return P::total(all);
   }
 
-  /// Of the rows a = k mod 8, of which packs come one after the other, that with the smallest depth.
-  struct Deepest {
-    Pack least{}, at{}, now;
-    MOREAU_INLINE_MEMBER void take(const Pack& depth) {
-      P::keep_smaller(least, at, depth, now);
-      now = P::plus(now, 8);
-    }
-    MOREAU_INLINE_MEMBER void store(double* depth, double* row) const {
-      P::store(depth, least);
-      P::store(row, at);
-    }
-  };
-  MOREAU_INLINE Deepest none_yet() {
-    alignas(64) constexpr double first[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    return {{}, {}, P::load(first)};
-  }
-
   MOREAU_INLINE void deepest(Index m, Index n, const double* U, const double* q, const double* s,
                              const double* inverse_length, double* slack, double* depth, double* row) {
-    Deepest found = none_yet();
+    alignas(64) constexpr double first[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    Pack least{}, at{}, now = P::load(first);
     by_eights(
         m, n, U, typename K::Product{q}, [&](Index a, const Pack& sum) __attribute__((always_inline)) {
           const Pack x = P::minus(sum, P::load_before(s + a, s + m));
           P::store(slack + a, x);
-          found.take(P::times(x, P::load(inverse_length + a)));
+          P::keep_smaller(least, at, P::times(x, P::load(inverse_length + a)), now);
+          now = P::plus(now, 8);
         });
-    found.store(depth, row);
-  }
-
-  MOREAU_INLINE void deepest_known(Index m, const double* slack, const double* inverse_length, double* depth,
-                                   double* row) {
-    Deepest found = none_yet();
-    for (Index a = 0; a < m; a += 8) found.take(P::times(P::load(slack + a), P::load(inverse_length + a)));
-    found.store(depth, row);
+    P::store(depth, least);
+    P::store(row, at);
   }
 };
 

@@ -132,41 +132,16 @@ bool SweptRows::settle_all() {
   return false;
 }
 
-/// Up to eight rows, not looked at yet, that the point violates, those that lie deep below their edge; of
-/// rows that are multiples of each other one.
+/// Up to eight rows, not looked at yet, that the point violates, those that lie deep below their edge.
 Index SweptRows::fresh_violated_rows(Index* rows) {
-  constexpr int most_passes = 3;
   SmallTableau& t = tableau_;
-  alignas(64) double depth[8], row[8], depth_of[8];
+  alignas(64) double depth[8], row[8];
   small_kernels().deepest(t.all, t.n, t.U, t.q, problem_.s.data(), inverse_scale_, t.slack, depth, row);
   const double least = GramPivoting::least_violation * (t.z_norm + t.acceleration_norm);
   Index count = 0;
-  bool repeats = true;
-  for (int pass = 0; pass < most_passes && repeats && count < 8; ++pass) {
-    if (pass > 0) small_kernels().deepest_known(t.all, t.slack, inverse_scale_, depth, row);
-    repeats = false;
-    for (int k = 0; k < 8 && count < 8; ++k) {
-      const Index a = static_cast<Index>(row[k]);
-      if (!(depth[k] < -least) || place(a) >= 0) continue;
-      t.slack[a] = 0;  // found; all are measured again before they are used
-      if (repeats_one(a, depth[k], rows, depth_of, count)) {
-        repeats = true;
-        continue;
-      }
-      depth_of[count] = depth[k];
-      rows[count++] = a;
-    }
-  }
+  for (int k = 0; k < 8; ++k)
+    if (const Index a = static_cast<Index>(row[k]); depth[k] < -least && place(a) < 0) rows[count++] = a;
   return count;
-}
-
-/// Whether row a lies as deep as one of the others and is a multiple of it.
-bool SweptRows::repeats_one(Index a, double depth, const Index* rows, const double* depths,
-                            Index count) const {
-  const double *const U = tableau_.U, *const u = U + a * tableau_.n;
-  for (Index k = 0; k < count; ++k)
-    if (are_alike(depths[k], depth) && is_multiple(tableau_.n, u, U + rows[k] * tableau_.n)) return true;
-  return false;
 }
 
 /// Looks at more rows. Where there is no room for them those outside are forgotten. False when there is none

@@ -46,7 +46,6 @@ class SweptRows final : public GramWorkingSet {
   bool take_in(const Index* rows, Index count);
   bool settle_all();
   Index fresh_violated_rows(Index* rows);
-  bool repeats_one(Index a, double depth, const Index* rows, const double* depths, Index count) const;
   bool looks_at_all() const { return tableau_.slack == tableau_.slack_at; }
   Index place(Index a) const { return looks_at_all() ? a : place_[a]; }
   void measure_slacks_of_all();
