@@ -126,21 +126,16 @@ class DualActiveSet {
       if (set_.one_sided(k)) set_.lambda()[k] = std::max(0.0, set_.lambda()[k]);
   }
 
-  /// One-sided rows outside S with u_a·q - s_a below `side` times what rounding may make of a zero.
-  std::vector<Index> rows_below(double side) const {
+  /// One-sided rows outside S with u_a·q < s_a beyond what rounding may make of a zero.
+  std::vector<Index> violated_rows() {
+    slack_ = problem_.U.times(set_.point()) - problem_.s;
     std::vector<Index> rows;
     for (Index a = 0; a < problem_.rows(); ++a) {
       const double zero = row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a]);
       const auto i = at(a);
-      if (slack_[a] < side * zero && !set_.holds(a) && !two_sided_[i] && !passed_[i]) rows.push_back(a);
+      if (slack_[a] < -zero && !set_.holds(a) && !two_sided_[i] && !passed_[i]) rows.push_back(a);
     }
     return rows;
-  }
-
-  /// Rows with u_a·q < s_a beyond rounding.
-  std::vector<Index> violated_rows() {
-    slack_ = problem_.U.times(set_.point()) - problem_.s;
-    return rows_below(-1);
   }
 
   void sort_by_violation(std::vector<Index>& rows) const {
@@ -150,35 +145,8 @@ class DualActiveSet {
     std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
   }
 
-  /// Tries the hypothesis that all degenerate rows hold; true when their multipliers allow it.
-  bool start_by_degenerate_rows(const std::vector<Index>& rows) {
-    set_.append_block(rows, block_dependence);
-    set_.solve();
-    judge_noise();
-    steps_ += static_cast<Index>(rows.size());
-    bool allowed = true;
-    for (Index k = 0; k < set_.size() && allowed; ++k)
-      allowed = !set_.one_sided(k) || set_.lambda()[k] * set_.factor().length(k) >= -multiplier_noise();
-    if (!allowed)
-      while (set_.size() > 0 && set_.one_sided(set_.size() - 1)) set_.remove(set_.size() - 1);
-    else
-      drop_until_dual_feasible();
-    return allowed;
-  }
-
-  /// Takes in rows to start from, as far as they are independent with multipliers >= 0: those guessed, else
-  /// the rows that the free motion violates or just keeps, as at rest.
-  void start(const std::vector<Index>& guess) {
-    std::vector<Index> rows = guess;
-    if (rows.empty()) {
-      const std::size_t violated = violated_rows().size();
-      if (violated == 0) return;
-      rows = rows_below(1);
-      if (rows.size() > violated && static_cast<Index>(rows.size()) <= set_.factor().capacity() &&
-          start_by_degenerate_rows(rows))
-        return;
-      rows.clear();
-    }
+  /// Takes in the rows guessed, as far as they are independent with multipliers >= 0.
+  void start(std::vector<Index> rows) {
     std::erase_if(rows, [&](Index a) { return two_sided_[at(a)]; });
     set_.append_block(rows, block_dependence);
     steps_ += static_cast<Index>(rows.size());
