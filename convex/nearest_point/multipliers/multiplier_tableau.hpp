@@ -23,9 +23,6 @@ struct MultiplierRange {
 /// The polyhedron of multipliers at one of its vertices, as a simplex tableau: the basic multipliers are
 /// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0. In doubles, where
 /// what rounding leaves about 0 counts as 0, or in fractions.
-///
-/// Each vertex on the way to an end of one multiplier tells of every multiplier that is 0 there, and each
-/// edge without an end of every one that grows along it: most ends need no pivot of their own.
 template <class Number>
 class MultiplierTableau {
  public:
@@ -38,8 +35,6 @@ class MultiplierTableau {
       : now_{std::move(basic), std::move(nonbasic), std::move(value), std::move(T)},
         free_(std::move(is_free)),
         unbounded_(free_.size(), false),
-        vanishes_(free_.size(), false),
-        grows_(free_.size(), false),
         fixed_(now_.nonbasic.size(), false) {
     if constexpr (is_rounded) {
       // Values below this part of the largest are rounding about zero, and entries so many roundings of it.
@@ -52,7 +47,6 @@ class MultiplierTableau {
       value_noise_ = relative_value_noise * value_size;
     }
     settle_free_columns();
-    note_vertex();
     if (is_rounded) {
       start_ = now_;
       start_growth_ = growth_;
@@ -73,8 +67,8 @@ class MultiplierTableau {
       pivots_ = 0;
       growth_ = start_growth_;
     }
-    std::optional<Number> low = vanishes_[at(a)] ? std::optional<Number>(Number{}) : extreme(a, false);
-    return {std::move(low), grows_[at(a)] ? std::nullopt : extreme(a, true)};
+    std::optional<Number> low = extreme(a, false);
+    return {std::move(low), extreme(a, true)};
   }
 
   /// In fractions: no more pivots once they took so many word operations. Then ranges are not to be used.
@@ -102,13 +96,6 @@ class MultiplierTableau {
   static bool is_zero(const Number& x) {
     if constexpr (is_rounded)
       return x == 0;
-    else
-      return sign(x) == 0;
-  }
-  /// Of a multiplier that is >= 0; what is not a number is not known to be 0.
-  bool is_zero_value(const Number& x) const {
-    if constexpr (is_rounded)
-      return x <= value_noise_;
     else
       return sign(x) == 0;
   }
@@ -172,20 +159,6 @@ class MultiplierTableau {
     std::swap(now_.basic[row], now_.nonbasic[column]);
   }
 
-  /// What multipliers are 0 at the vertex.
-  void note_vertex() {
-    for (const Index name : now_.nonbasic) vanishes_[at(name)] = vanishes_[at(name)] || !is_free(name);
-    for (std::size_t k = 0; k < now_.basic.size(); ++k)
-      if (!is_free(now_.basic[k]) && is_zero_value(now_.value[k])) vanishes_[at(now_.basic[k])] = true;
-  }
-
-  /// What multipliers grow with nonbasic column `column`, which nothing blocks.
-  void note_edge_without_end(std::size_t column) {
-    grows_[at(now_.nonbasic[column])] = true;
-    for (std::size_t k = 0; k < now_.basic.size(); ++k)
-      if (is_positive(-now_.T[column][k])) grows_[at(now_.basic[k])] = true;
-  }
-
   /// Free multipliers enter the basis for good; one that no sign hinders moves its partners without bound.
   void settle_free_columns() {
     for (std::size_t column = 0; column < now_.T.size(); ++column) {
@@ -238,14 +211,9 @@ class MultiplierTableau {
         if (entering == none) return without_noise(now_.value[row], is_free(a));
       }
       const Block block = blocking_row(entering, true);
-      if (block.row == none) {
-        note_edge_without_end(entering);
-        return std::nullopt;
-      }
+      if (block.row == none) return std::nullopt;
       by_name = !(Number{} < block.step) || count >= usual;
       pivot(block.row, entering);
-      note_vertex();
-      if (!rises && vanishes_[at(a)]) return Number{};
     }
     if constexpr (is_rounded) return std::numeric_limits<double>::quiet_NaN();
     return std::nullopt;
@@ -272,7 +240,6 @@ class MultiplierTableau {
   State now_, start_;
   std::vector<std::size_t> changing_;  ///< rows of the last pivot with an entry in its column
   std::vector<bool> free_, unbounded_;
-  std::vector<bool> vanishes_, grows_;  ///< at a vertex, along an edge that were met; of free ones the latter
   std::vector<bool> fixed_;
   Number value_noise_{}, rounding_{};
   double growth_ = 1, start_growth_ = 1;  ///< of rounding, by the smallest pivot: now, in `start_`
