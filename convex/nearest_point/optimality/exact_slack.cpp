@@ -64,22 +64,6 @@ ExactSum exact_slack(const NearestPointProblem& problem, Index a, const Point& q
   return sum;
 }
 
-/// Whether twice the working precision shows that row a of a dense U is off its edge at q: the error of the
-/// sum of n + 1 terms is below (n + 1)² u² of their sizes (Ogita, Rump and Oishi 2005).
-bool is_plainly_off(const NearestPointProblem& problem, Index a, const Point& q) {
-  const double *const u = problem.U.dense().data() + a * q.size(), terms = static_cast<double>(q.size() + 2);
-  RunningSum sum;
-  sum.add(-problem.s[a]);
-  double size = std::abs(problem.s[a]);
-  for (Index i = 0; i < q.size(); ++i) {
-    const DoubleDouble product = two_product(u[i], q[i]);
-    sum.add(product);
-    size += std::abs(product.hi);
-  }
-  const double error = 4 * terms * terms * unit_roundoff * unit_roundoff * size;
-  return std::abs(sum.value()) > error + std::numeric_limits<double>::min() && std::isfinite(size);
-}
-
 }  // namespace
 
 SlackOnEdge::SlackOnEdge(const NearestPointProblem& problem, const double* row_scale)
@@ -211,10 +195,7 @@ bool keeps_rows(const NearestPointProblem& problem, const Point& q, std::span<co
         return *slack;
     return slack_at(problem, a, q);
   };
-  const auto holds = [&](Index a) {
-    return (problem.U.is_sparse() || at_rest || !is_plainly_off(problem, a, q)) && slack_of(a) == 0;
-  };
-  return std::all_of(held.begin(), held.end(), holds) &&
+  return std::all_of(held.begin(), held.end(), [&](Index a) { return slack_of(a) == 0; }) &&
          std::all_of(degenerate.begin(), degenerate.end(),
                      [&](Index a) { return is_kept(a, *slacks++ = slack_of(a)); });
 }
