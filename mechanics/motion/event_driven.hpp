@@ -89,6 +89,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   std::vector<Index>& at_zero);
   std::optional<double> sign_ahead(std::size_t k, std::vector<double> by_rounding);
+  double length_ahead() const;
   void take_signs_beside(const std::vector<Index>& switches, std::vector<double>& signs);
   bool has_left_its_branch(std::size_t k, double tau);
   void note_across(double tau);

@@ -173,9 +173,12 @@ std::optional<double> Motion::EventDriven::sign_ahead(std::size_t k, std::vector
     const LeavingTerm leaving = leaving_term(c.first(seen), by_rounding, first, farthest, by_single_terms_);
     first = leaving.order;
     // What is left of a rest, c_0 or c_1, moves on by itself, and stays within that for as long as it took to
-    // come here, from farther.
+    // come here, from farther, and for as long as the motion takes to change: a force that has just begun to
+    // push is small yet, and leads away sooner.
     const bool is_left = (c[0] != 0 || c[1] != 0) && argument.terms_behind > farthest;
-    if (is_left && since_event_ > instants_until_rest * moment && leaving.at > since_event_) first = c.size();
+    if (is_left && since_event_ > instants_until_rest * moment && leaving.at > since_event_ &&
+        leaving.at > length_ahead())
+      first = c.size();
   }
   argument.zeros = static_cast<int>(std::min(first, c.size()));
   if (first < c.size()) return std::copysign(1.0, c[first]);

@@ -42,6 +42,15 @@ bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   return !tells(told, there, digits) && !tells(told, there, digits + expansion_.rounding_of_argument(k));
 }
 
+/// How long the series of the arc tried tell the motion: a polynomial does to its end.
+double Motion::EventDriven::length_ahead() const {
+  std::vector<double> sizes;
+  expansion_.sizes(sizes);
+  const double told = step_length(sizes, tolerance_of_step(options.tolerance)),
+               left = std::isfinite(until_) ? until_ - state.t : 1;
+  return std::isfinite(told) ? told : left;
+}
+
 /// The signs with which arguments at 0 go on whose derivatives have no bound, by the text on the arc ahead:
 /// each at the first time, of a geometric sequence, at which the argument is more than rounding may have made
 /// it.
@@ -51,11 +60,7 @@ void Motion::EventDriven::take_signs_beside(const std::vector<Index>& switches, 
   ahead.q.resize(expansion_.coordinates(), expansion_.order() + 1);
   for (Index i = 0; i < ahead.q.rows(); ++i)
     std::copy_n(expansion_.position(i).begin(), ahead.q.cols(), ahead.q.row(i).begin());
-  std::vector<double> sizes;
-  expansion_.sizes(sizes);
-  const double told = step_length(sizes, tolerance_of_step(options.tolerance)),
-               left = std::isfinite(until_) ? until_ - state.t : 1,
-               length = std::isfinite(told) ? told : left;
+  const double length = length_ahead();
   constexpr double ratio = 16;
   State there;
   for (double tau = std::max(epsilon * epsilon * length, rounding_of_time(0)); tau <= length; tau *= ratio) {

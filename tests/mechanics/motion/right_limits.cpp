@@ -132,3 +132,19 @@ TEST_CASE("at rest contacts of one gradient that no motion satisfies exclude eac
                state({0, 0}, {0, 0}), 1);
   CHECK(motion.motion.status() == MotionStatus::infeasible);
 }
+
+TEST_CASE(
+    "a slide that begins so soon after the start that the force away from it is tiny stops the motion") {
+  // x'' = -15 from 0.4 + d comes to 0.4 at d/15; below it the force pushes back, however little yet.
+  for (const char* force : {"if(x' > 0.4, -15, t)", "-15*step(x' - 0.4) + sin(3*t)", "-15*step(x' - 0.4) + t",
+                            "if(x' > 0.4, -15, x - 1)", "if(x' > 0.4, -15, 1 - cos(t))"})
+    for (const double d : {1e-10, 1e-8, 1e-6, 1e-3}) {
+      CAPTURE(std::string(force));
+      CAPTURE(d);
+      const Followed motion =
+          followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({1}, {0.4 + d}), 1);
+      CHECK(motion.motion.status() == MotionStatus::stopped);
+      CHECK(motion.motion.why().find("slides") != std::string::npos);
+      CHECK(motion.end().t == doctest::Approx(d / 15).epsilon(1e-3));
+    }
+}
