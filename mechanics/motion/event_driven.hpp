@@ -90,6 +90,7 @@ class Motion::EventDriven final : public Motion::Course {
                                                   std::vector<Index>& at_zero);
   std::optional<double> sign_ahead(std::size_t k, std::vector<double> by_rounding);
   double length_ahead() const;
+  bool is_denied_beside(const std::vector<Index>& at_zero, const std::vector<double>& signs);
   void take_signs_beside(const std::vector<Index>& switches, std::vector<double>& signs);
   bool has_left_its_branch(std::size_t k, double tau);
   void note_across(double tau);

@@ -256,12 +256,7 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
         ahead[k] = sign.value_or(0);
         if (!sign) untold.push_back(at_zero[i]);
       }
-      if (!untold.empty()) {
-        take_signs_beside(untold, ahead);
-        expansion_.set(state);
-        expansion_.take_bases_for_zero();
-        answer = expansion_.expand(question);
-      }
+      if (!untold.empty()) take_signs_beside(untold, ahead);
       for (const Index which : at_zero) {
         const auto k = static_cast<std::size_t>(which);
         const double sign = ahead[k];
@@ -269,7 +264,13 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
         if (sign != expansion_.branch(k))
           found = sign == 0 && found != Found::nothing ? Found::beside : Found::nothing;
       }
-      return found;
+      const bool is_denied = found == Found::beside && is_denied_beside(at_zero, ahead);
+      if (found == Found::beside || !untold.empty()) {
+        expansion_.set(state);
+        expansion_.take_bases_for_zero();
+        answer = expansion_.expand(question);
+      }
+      return is_denied ? Found::nothing : found;
     } catch (const convex::InvalidInput& error) {  // nothing is defined there, as beyond a table's end
       undefined_beyond_ = error.what();
       return Found::nothing;

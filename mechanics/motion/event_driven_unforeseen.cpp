@@ -51,6 +51,34 @@ double Motion::EventDriven::length_ahead() const {
   return std::isfinite(told) ? told : left;
 }
 
+/// Whether one of the arguments that stay 0 on other branches than that at 0 is 0 there wherever the motion
+/// is, as that of max(x, 0) <= 0 for x < 0: then no state beside has that branch.
+bool Motion::EventDriven::is_denied_beside(const std::vector<Index>& at_zero,
+                                           const std::vector<double>& signs) {
+  // Formulas are analytic: one that is 0 at a state which nothing singles out is 0 at all of them. That of
+  // |x| is another one on the other side.
+  constexpr double golden = 0.6180339887498949, far = 0.25, of_time = 0.125;
+  for (const double side : {far, -far})
+    for (const double later : {of_time * far, -of_time * far}) {
+      State beside = state;
+      double part = golden;
+      const auto move = [&](double& x) {
+        x += side * (1 + part) * std::max(1.0, std::abs(x));
+        part = std::fmod(part + golden, 1.0);
+      };
+      for (Index i = 0; i < expansion_.coordinates(); ++i) move(beside.q[i]), move(beside.v[i]);
+      beside.t += later * std::max(1.0, std::abs(state.t));
+      expansion_.look_at_arguments(beside);
+      if (std::any_of(at_zero.begin(), at_zero.end(), [&](Index which) {
+            const auto k = static_cast<std::size_t>(which);
+            return signs[k] == 0 && expansion_.branch(k) != 0 &&
+                   std::abs(expansion_.switch_argument(k)[0]) <= expansion_.rounding_of_argument(k);
+          }))
+        return true;
+    }
+  return false;
+}
+
 /// The signs with which arguments at 0 go on whose derivatives have no bound, by the text on the arc ahead:
 /// each at the first time, of a geometric sequence, at which the argument is more than rounding may have made
 /// it.

@@ -148,3 +148,33 @@ TEST_CASE(
       CHECK(motion.end().t == doctest::Approx(d / 15).epsilon(1e-3));
     }
 }
+
+TEST_CASE("a motion does not go on in a branch that its text has nowhere on that side of an edge") {
+  struct Case {
+    const char* force;
+    double x, v, t;  // t: where both sides lead back to the edge
+  };
+  // max(A, 0) is 0 on all of one side, where max(A, 0) <= 0 holds.
+  const Case cases[] = {{"if(max(x', 0) <= 0, 1, -1)", 0, 0, 0},
+                        {"if(max(x' - 0.5, 0) <= 0, 1, -1)", 0, 0, 0.5},
+                        {"-x'*if(max(x' - cos(t), 0) <= 0, 0, 1)", 1, 1, 0},
+                        {"1 - 3*sign(max(x', 0))", 0, -0.5, 0.5},
+                        {"if(max(x', 0)^2 > 0, -3, 1)", 0, -0.5, 0.5},
+                        {"if(abs(x') + x' > 0, -3, 1)", 0, -0.5, 0.5},
+                        {"if(max(x - sin(t), 0) > 0, -3, 1)", 0, 1, 0}};
+  for (const Case& one : cases) {
+    CAPTURE(std::string(one.force));
+    const Followed motion =
+        followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", one.force}}, {}}, state({one.x}, {one.v}), 2);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(motion.motion.why().find("slides") != std::string::npos);
+    CHECK(motion.end().t == doctest::Approx(one.t).epsilon(1e-12));
+  }
+  // Beyond the edge nothing pushes: the velocity stays at it.
+  for (const char* force : {"if(max(x', 0) > 0, -1, 0)", "if(max(x', 0) <= 0, 0, -1)", "-sign(max(x', 0))"}) {
+    CAPTURE(std::string(force));
+    const Followed motion = followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {0.5}), 2);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(0.125).epsilon(1e-12));
+  }
+}
