@@ -333,9 +333,9 @@ void Motion::EventDriven::look_for_penetration() {
 }
 
 void Motion::EventDriven::continue_arc() {
+  std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   project();
   if (status != MotionStatus::done) return;
-  std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   for (Argument& one : arguments_) one.zeros = 0;
   if (!expansion_.gradients_taken_for_zero().empty()) take_rounding_of_gradients_for_zero(persist_);

@@ -121,6 +121,7 @@ class Motion::EventDriven final : public Motion::Course {
   /// Why nothing is found that goes on.
   std::string obstacle_ahead(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   void continue_arc();
+  bool let_go_of_moving();
   void project();
   void fill_next();
   bool may_leave_rest();

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -130,6 +132,38 @@ double Motion::EventDriven::pull_of_weak(const Vector& lambda) {
   return pull;
 }
 
+/// Contacts without a multiplier, with a gradient that is nearly one of the others', are let go where to hold
+/// them would turn the velocity: along what is left of it the motion is not at rest, however small f and
+/// df/dt are, as those of y >= -x^8 beside a floor y >= 0 that x moves along.
+bool Motion::EventDriven::let_go_of_moving() {
+  const auto is_weak = [this](Index a) { return !is_two_sided(a) && is_weak_[static_cast<std::size_t>(a)]; };
+  const auto change = [this](const std::vector<Index>& held) {
+    Vector rates(static_cast<Index>(held.size()));
+    for (std::size_t k = 0; k < held.size(); ++k) rates[static_cast<Index>(k)] = expansion_.rate(held[k]);
+    return held.empty() ? 0.0 : expansion_.norm(expansion_.held_rows(held).least_change(-rates));
+  };
+  if (std::none_of(persist_.begin(), persist_.end(), is_weak)) return false;
+  const double least = half_the_digits * expansion_.norm(state.v);
+  std::vector<Index> held;
+  std::copy_if(persist_.begin(), persist_.end(), std::back_inserter(held), std::not_fn(is_weak));
+  double last = change(held);
+  for (const Index a : persist_) {
+    if (!is_weak(a)) continue;
+    const bool is_implied = expansion_.is_nearly_implied(a, held);
+    held.push_back(a);
+    const double turned = change(held);
+    if (is_implied && turned > last + least) {
+      held.pop_back();
+      zeros_of_f_[static_cast<std::size_t>(a)] = expansion_.rate(a) > 0 ? 1 : 0;
+    } else {
+      last = turned;
+    }
+  }
+  if (held.size() == persist_.size()) return false;
+  persist_ = std::move(held);
+  return true;
+}
+
 /// Back to f = 0 and df/dt = 0 of the contacts held, by the least change in the kinetic metric.
 void Motion::EventDriven::project() {
   if (persist_.empty()) return;
@@ -148,6 +182,7 @@ void Motion::EventDriven::project() {
     const convex::Metric& A = expansion_.inertia();
     const double by_q = A.norm(dq), by_v = A.norm(dv);
     const double q = A.norm(state.q), v = A.norm(state.v);
+    if (i == 0 && by_v > half_the_digits * v && let_go_of_moving()) return project();
     const bool is_small = by_q <= smallest * q && by_v <= smallest * v;
     const double size = std::max(by_q / std::max(q, by_q + 1e-300), by_v / std::max(v, by_v + 1e-300));
     if (is_small || (i > 1 && size > 0.5 * last && size < largest)) return;

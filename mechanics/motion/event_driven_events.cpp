@@ -299,9 +299,11 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
   }
   if (!persist_.empty()) {
     const State unprojected = state;
+    const std::size_t held = persist_.size();
     project();
     if (status != MotionStatus::done) return;
-    if (state.q != unprojected.q || state.v != unprojected.v) expansion_.expand({persist_, {}});
+    if (persist_.size() != held || state.q != unprojected.q || state.v != unprojected.v)
+      expansion_.expand({persist_, {}});
   }
   fill_next();
   if (leads_from_pole())

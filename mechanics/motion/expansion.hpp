@@ -116,6 +116,8 @@ class Expansion {
   }
   /// Rows held with equality at this state.
   HeldRows held_rows(const std::vector<Index>& constraints) const;
+  /// Whether the gradient of f_a is so nearly one of these, or a combination of theirs, that f does not tell.
+  bool is_nearly_implied(Index a, std::vector<Index> constraints) const;
 
   /// q'' at the state, and the multipliers, while these constraints are held.
   HeldRows::Answer acceleration(const std::vector<Index>& held);

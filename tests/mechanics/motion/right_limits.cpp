@@ -178,3 +178,41 @@ TEST_CASE("a motion does not go on in a branch that its text has nowhere on that
     CHECK(motion.end().q[0] == doctest::Approx(0.125).epsilon(1e-12));
   }
 }
+
+TEST_CASE("a body moves freely along a floor that another one touches to a high order") {
+  // ∫∫ sin³ t, along y = 0.
+  const double T = 2, s = std::sin(T), x = 2 * T / 3 - s + (s - s * s * s / 3) / 3;
+  for (const char* other : {"y >= -x^6", "y >= -x^8", "2*y >= -x^10", "y >= -x^4"}) {
+    CAPTURE(std::string(other));
+    const Followed motion = followed({{"x", "y"},
+                                      "(x'^2+y'^2)/2",
+                                      "9.81*y",
+                                      {},
+                                      {},
+                                      {{"x", "sin(t)^3"}},
+                                      {{"floor", "y >= 0"}, {"other", other}}},
+                                     state({0, 0}, {0, 0}), T);
+    REQUIRE(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(x).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("floors that rounding does not tell from each other let go of a body at one time") {
+  // Up to t0 the body is on a table at 0.1 sin 3t; x, below 1e-7, moves neither floor by more than rounding.
+  const auto push = [](double t) { return 9.81 * std::cos(7 * t) - 0.9 * std::sin(3 * t); };
+  double t0 = 0.2, late = 0.25;
+  for (int k = 0; k < 60; ++k) (push((t0 + late) / 2) > 0 ? t0 : late) = (t0 + late) / 2;
+  const double v = 0.3 * std::cos(3 * t0) - 9.81 / 7 * (std::sin(3.5) - std::sin(7 * t0));
+  const Followed motion =
+      followed({{"x", "y", "z"},
+                "((1+x^2)*x'^2+y'^2+z'^2)/2",
+                "",
+                {},
+                {},
+                {{"x", "1e-6"}, {"y", "-9.81*cos(7*t)"}, {"z", "1"}},
+                {{"dome", "y >= -x^4-x^2+0.1*sin(3*t)"}, {"bowl", "exp(y-(abs(x)^3+0.1*sin(3*t))) >= 1"}}},
+               state({0, 0, 0}, {0, 0.3, 0}), 0.5);
+  REQUIRE(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.end().v[1] == doctest::Approx(v).epsilon(1e-9));
+  CHECK(std::abs(motion.end().v[0] - 5e-7) < 1e-7);
+}
