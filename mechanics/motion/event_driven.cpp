@@ -143,7 +143,9 @@ void Motion::EventDriven::watch() {
   };
   without_value_.clear();
   is_held_.assign(system.constraints().size(), false);
+  is_counted_ = is_held_;
   for (const Index a : persist_) is_held_[static_cast<std::size_t>(a)] = true;
+  for (const Index a : counted_) is_counted_[static_cast<std::size_t>(a)] = true;
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const auto k = static_cast<std::size_t>(a);
     if (is_two_sided(a)) continue;
@@ -188,9 +190,9 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
     } else {
       if (is_weak_[k]) return tau;
       expansion_.set(there_);
-      const HeldRows::Answer answer = expansion_.acceleration(persist_);
-      for (std::size_t a = 0; a < persist_.size(); ++a)
-        if (persist_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
+      const HeldRows::Answer answer = expansion_.acceleration(counted_);
+      for (std::size_t a = 0; a < counted_.size(); ++a)
+        if (counted_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
       slope = slope_at(coefficients(next.lambda, zero.which), tau);
     }
     // Where rounding is all there is of value and slope, a correction leads anywhere.

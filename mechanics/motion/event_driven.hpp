@@ -121,6 +121,9 @@ class Motion::EventDriven final : public Motion::Course {
   /// Why nothing is found that goes on.
   std::string obstacle_ahead(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   void continue_arc();
+  /// Of a contact held: it is one-sided and has no multiplier.
+  bool may_be_implied(Index a) const { return !is_two_sided(a) && is_weak_[static_cast<std::size_t>(a)]; }
+  void take_counted(const std::vector<Index>& independent);
   bool let_go_of_moving();
   void project();
   void fill_next();
@@ -149,6 +152,7 @@ class Motion::EventDriven final : public Motion::Course {
   double since_start_ = 0;        // the time is start_ + since_start_ + low_
   double low_ = 0;
   std::vector<Index> persist_;                     // held on the next arc
+  std::vector<Index> counted_;                     // of them, those whose gradients count as it begins
   std::vector<int> zeros_of_f_, zeros_of_lambda_;  // leading ones on the next arc
   /// The argument of a branch.
   struct Argument {
@@ -175,6 +179,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Watched> watched_;  // on the next arc
   std::vector<double> sizes_;     // ||q_k||_A on the next arc, by order
   std::vector<bool> is_held_;     // on the next arc
+  std::vector<bool> is_counted_;  // of them
   State there_;                   // the end of the step
   Vector q2_, expected_q2_;       // there, by the equations and by the series
   double reach_;                  // of arguments in a step

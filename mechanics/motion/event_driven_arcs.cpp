@@ -82,7 +82,7 @@ bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_lea
   try {
     expansion_.set(there_);
     const std::optional<HeldRows::Answer> answer =
-        may_leave_zero ? acceleration_off_zero(at) : expansion_.acceleration(persist_);
+        may_leave_zero ? acceleration_off_zero(at) : expansion_.acceleration(counted_);
     if (!answer) return false;
     q2_ = answer->x;
     if (may_leave_zero) pull = pull_of_weak(answer->lambda);
@@ -123,11 +123,11 @@ bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_lea
 /// By how much contacts held without a multiplier would pull, as an acceleration.
 double Motion::EventDriven::pull_of_weak(const Vector& lambda) {
   double pull = 0;
-  for (std::size_t k = 0; k < persist_.size(); ++k) {
-    const auto a = static_cast<std::size_t>(persist_[k]);
+  for (std::size_t k = 0; k < counted_.size(); ++k) {
+    const auto a = static_cast<std::size_t>(counted_[k]);
     const double beyond = -lambda[static_cast<Index>(k)] - room_of_weak * least_multiplier_[a];
     if (is_weak_[a] && beyond > 0)
-      pull += beyond * expansion_.inertia().dual_norm(expansion_.row(persist_[k]));
+      pull += beyond * expansion_.inertia().dual_norm(expansion_.row(counted_[k]));
   }
   return pull;
 }
@@ -136,7 +136,7 @@ double Motion::EventDriven::pull_of_weak(const Vector& lambda) {
 /// them would turn the velocity: along what is left of it the motion is not at rest, however small f and
 /// df/dt are, as those of y >= -x^8 beside a floor y >= 0 that x moves along.
 bool Motion::EventDriven::let_go_of_moving() {
-  const auto is_weak = [this](Index a) { return !is_two_sided(a) && is_weak_[static_cast<std::size_t>(a)]; };
+  const auto is_weak = [this](Index a) { return may_be_implied(a); };
   const auto change = [this](const std::vector<Index>& held) {
     Vector rates(static_cast<Index>(held.size()));
     for (std::size_t k = 0; k < held.size(); ++k) rates[static_cast<Index>(k)] = expansion_.rate(held[k]);
@@ -149,12 +149,13 @@ bool Motion::EventDriven::let_go_of_moving() {
   double last = change(held);
   for (const Index a : persist_) {
     if (!is_weak(a)) continue;
-    const bool is_implied = expansion_.is_nearly_implied(a, held);
+    const bool is_implied = !is_among(counted_, a) || expansion_.is_nearly_implied(a, held);
     held.push_back(a);
     const double turned = change(held);
     if (is_implied && turned > last + least) {
       held.pop_back();
-      zeros_of_f_[static_cast<std::size_t>(a)] = expansion_.rate(a) > 0 ? 1 : 0;
+      const bool is_at_zero = expansion_.f(a) <= roundings_of_closed * epsilon * expansion_.position_scale(a);
+      zeros_of_f_[static_cast<std::size_t>(a)] = is_at_zero && expansion_.rate(a) > 0 ? 1 : 0;
     } else {
       last = turned;
     }
@@ -164,9 +165,18 @@ bool Motion::EventDriven::let_go_of_moving() {
   return true;
 }
 
+/// With a gradient that others make up as the arc begins a contact without a multiplier has no part in it,
+/// and takes none up on the way, where rounding tells them apart.
+void Motion::EventDriven::take_counted(const std::vector<Index>& independent) {
+  counted_.clear();
+  for (std::size_t k = 0; k < persist_.size(); ++k)
+    if (!may_be_implied(persist_[k]) || is_among(independent, static_cast<Index>(k)))
+      counted_.push_back(persist_[k]);
+}
+
 /// Back to f = 0 and df/dt = 0 of the contacts held, by the least change in the kinetic metric.
 void Motion::EventDriven::project() {
-  if (persist_.empty()) return;
+  if (persist_.empty()) return counted_.clear();
   constexpr int most_corrections = 12;
   constexpr double smallest = 4 * epsilon, largest = 1e-6;
   const auto rows = static_cast<Index>(persist_.size());
@@ -183,6 +193,7 @@ void Motion::EventDriven::project() {
     const double by_q = A.norm(dq), by_v = A.norm(dv);
     const double q = A.norm(state.q), v = A.norm(state.v);
     if (i == 0 && by_v > half_the_digits * v && let_go_of_moving()) return project();
+    take_counted(held.independent());
     const bool is_small = by_q <= smallest * q && by_v <= smallest * v;
     const double size = std::max(by_q / std::max(q, by_q + 1e-300), by_v / std::max(v, by_v + 1e-300));
     if (is_small || (i > 1 && size > 0.5 * last && size < largest)) return;

@@ -297,6 +297,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
     for (std::size_t k = 0; k < persist_.size(); ++k)
       least_multiplier_[static_cast<std::size_t>(persist_[k])] = least[static_cast<Index>(k)];
   }
+  counted_ = persist_;
   if (!persist_.empty()) {
     const State unprojected = state;
     const std::size_t held = persist_.size();

@@ -90,7 +90,7 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(doubl
   std::vector<std::size_t> left;
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
     if (has_left_zero(k, tau, far_from_zero)) left.push_back(k);
-  if (left.empty()) return expansion_.acceleration(persist_);
+  if (left.empty()) return expansion_.acceleration(counted_);
   const std::optional<HeldRows::Answer> answer = acceleration_off_zero(there_, left, tau);
   expansion_.set(there_);
   return answer;
@@ -106,7 +106,7 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(
       if (const double argument = expansion_.switch_argument(k)[0]; argument != 0)
         expansion_.branch(k) = std::copysign(1.0, argument);
     expansion_.set(there);
-    answer = expansion_.acceleration(persist_);
+    answer = expansion_.acceleration(counted_);
     note_across(tau);
   } catch (const convex::InvalidInput& error) {
     obstacle_ = error.what();

@@ -117,11 +117,11 @@ void Motion::EventDriven::note_across(double tau) {
       across_.push_back(which);
 }
 
-/// Whether a contact that is free at the beginning is through at a time of the arc, or its series does not
-/// tell that it is not.
+/// Whether a contact that is free at the beginning, or has no part in what is held, is through at a time of
+/// the arc, or its series does not tell that it is not.
 bool Motion::EventDriven::is_passed(double at) {
   for (Index a = 0; a < expansion_.constraints(); ++a) {
-    if (is_two_sided(a) || is_held_[static_cast<std::size_t>(a)]) continue;
+    if (is_two_sided(a) || is_counted_[static_cast<std::size_t>(a)]) continue;
     const double there = expansion_.f(a);
     const std::span<const double> c = coefficients(next.f, a);
     const double least = options.tolerance *

@@ -25,10 +25,6 @@ bool is_in_doubt(double number, double by_rounding) {
   return number > by_rounding && number < factor_in_doubt * by_rounding;
 }
 
-/// Contacts whose gradients differ by less than such a part are apart by the square of it, over a curvature,
-/// from where they are one: by rounding.
-constexpr double part_implied = 0x1p-20;
-
 /// Up to so many coordinates A⁻¹ is found entry by entry.
 constexpr Index inverted_coordinates = 300;
 
@@ -209,13 +205,6 @@ double Expansion::left_of_push(Index a, const Vector& u) const {
   for (const ContactQuestion::Unloaded& one : unloaded_)
     if (one.constraint == a) return one.left * u.dot(inertia().solve(u));
   return 0;
-}
-
-bool Expansion::is_nearly_implied(Index a, std::vector<Index> constraints) const {
-  constraints.push_back(a);
-  const auto count = static_cast<Index>(constraints.size());
-  const Vector turned = held_rows(constraints).least_change(Vector::Unit(count, count - 1));
-  return turned.isZero(0) || inertia().norm(turned) * inertia().dual_norm(row(a)) * part_implied > 1;
 }
 
 bool Expansion::leaves_open(const Vector& v, const std::vector<Index>& persist,

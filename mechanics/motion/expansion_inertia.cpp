@@ -14,6 +14,10 @@ namespace {
 /// Up to so many coordinates A is written down in full.
 constexpr Index small_system = 32;
 
+/// Contacts whose gradients differ by less than such a part are apart by the square of it, over a curvature,
+/// from where they are one: by rounding.
+constexpr double part_implied = 0x1p-20;
+
 }  // namespace
 
 /// A = ∂p/∂q', its symmetric part.
@@ -97,6 +101,13 @@ void Expansion::sizes(std::vector<double>& of_order) const {
     find_eight(first - Eight::count);  // the last two orders lie on both sides
   if (first > 0) find_eight(0);
   of_order.resize(count);
+}
+
+bool Expansion::is_nearly_implied(Index a, std::vector<Index> constraints) const {
+  constraints.push_back(a);
+  const auto count = static_cast<Index>(constraints.size());
+  const Vector turned = held_rows(constraints).least_change(Vector::Unit(count, count - 1));
+  return turned.isZero(0) || inertia().norm(turned) * inertia().dual_norm(row(a)) * part_implied > 1;
 }
 
 }  // namespace mechanics::inline motions

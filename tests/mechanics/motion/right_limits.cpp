@@ -216,3 +216,19 @@ TEST_CASE("floors that rounding does not tell from each other let go of a body a
   CHECK(motion.end().v[1] == doctest::Approx(v).epsilon(1e-9));
   CHECK(std::abs(motion.end().v[0] - 5e-7) < 1e-7);
 }
+
+TEST_CASE("a floor from which another one parts as slowly as rounding tells lets a body move along it") {
+  // x = 1e-6 t²/2, on a table that moves y alone.
+  const Followed motion =
+      followed({{"x", "y"},
+                "(x'^2+y'^2)/2",
+                "9.81*y",
+                {},
+                {},
+                {{"x", "1e-6"}},
+                {{"floor", "y >= 0.05*(1-cos(5*t))"}, {"other", "y >= cos(x)-1+0.05*(1-cos(5*t))"}}},
+               state({0, 0}, {0, 0}), 2);
+  REQUIRE(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.end().q[0] == doctest::Approx(2e-6).epsilon(1e-9));
+  CHECK(motion.motion.record().steps < 50);
+}
