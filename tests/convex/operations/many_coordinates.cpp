@@ -1,0 +1,81 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "convex/functions/decomposition.hpp"
+#include "tests/convex/operations/samples.hpp"
+
+/// Functions of some hundred coordinates with parts of which none is separable, whose points one number
+/// tells.
+using convex::Index;
+using convex::Metric;
+using convex::Status;
+using convex::Vector;
+
+namespace {
+
+Vector normal_vector(Index n, double size, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal(0, size);
+  return Vector::NullaryExpr(n, [&] { return normal(generator); });
+}
+
+/// The root of a function that falls from above 0 to below, to the last digit.
+double falling_root(const std::function<double(double)>& f, double low, double high) {
+  for (int halving = 0; halving < 200; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) > 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+void check_point(const std::string& text, const Vector& z, const Vector& expected) {
+  CAPTURE(text);
+  const auto split = convex::decompose(samples::function(text, z.size()), z, Metric::identity(z.size()));
+  REQUIRE(split.status == Status::solved);
+  CHECK((split.x.x - expected).norm() <= 1e-12 * z.norm());
+  CHECK((split.x.x - expected).norm() <= split.x.error_bound + 1e-14 * z.norm());
+}
+
+}  // namespace
+
+TEST_CASE("in hundreds of coordinates a ball and a box have the nearest point that one multiplier tells") {
+  const Vector z = normal_vector(300, 2, 1);
+  const auto at = [&](double mu) { return Vector((z / (1 + mu)).cwiseMax(0.0).cwiseMin(2.0)); };
+  for (const double radius : {1.0, 3.0}) {
+    const double mu = falling_root([&](double m) { return at(m).norm() - radius; }, 0, 1e6);
+    const std::string ball = "ball2(" + std::to_string(radius) + ")";
+    check_point("intersection(" + ball + ", box(0, 2))", z, at(mu));
+    check_point("sum(indicator(box(0, 2)), indicator(" + ball + "))", z, at(mu));
+  }
+}
+
+TEST_CASE("in hundreds of coordinates a norm is shortened within a box") {
+  const Vector z = normal_vector(300, 2, 2);
+  const auto at = [&](double nu) { return Vector((z / (1 + nu)).cwiseMax(-1.0).cwiseMin(2.0)); };
+  const double weight = 5, nu = falling_root([&](double m) { return weight - m * at(m).norm(); }, 0, 2);
+  check_point("sum(norm2(5), indicator(box(-1, 2)))", z, at(nu));
+}
+
+TEST_CASE("in hundreds of coordinates an epigraph has the nearest point that its height tells") {
+  const Index n = 300;
+  Vector z = normal_vector(n + 1, 2, 3);
+  z[n] = -40;
+  // x_i = the prox of mu max(0, 1 - x) at z_i, and the height is z_n + mu.
+  const auto at = [&](double mu) {
+    Vector x(n + 1);
+    for (Index i = 0; i < n; ++i) x[i] = z[i] >= 1 ? z[i] : std::min(1.0, z[i] + mu);
+    x[n] = z[n] + mu;
+    return x;
+  };
+  const auto above = [&](double mu) {
+    const Vector x = at(mu);
+    return (1 - x.head(n).array()).max(0.0).sum() - x[n];
+  };
+  check_point("indicator(epigraph(sum(hinge(), constant(0))))", z, at(falling_root(above, 0, 1e3)));
+  check_point("sum(indicator(epigraph(hinge())), indicator(ball2(1000)))", z,
+              at(falling_root(above, 0, 1e3)));
+}
