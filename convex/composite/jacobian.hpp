@@ -15,6 +15,8 @@ class Jacobian {
   Jacobian(const Eigen::DiagonalBase<Derived>& diagonal) : Jacobian(Vector(diagonal.diagonal())) {}
   explicit Jacobian(Vector a) : a_(std::move(a)), U_(a_.size(), 0), C_(0, 0) {}
   Jacobian(Vector a, Matrix U, Matrix C) : a_(std::move(a)), U_(std::move(U)), C_(std::move(C)) {}
+  /// Of fewer rows a full matrix costs as little, and rounds less where it is nearly singular.
+  static constexpr Index least_thin = 64;
   static Jacobian identity(Index n) { return Jacobian(Vector(Vector::Ones(n))); }
 
   bool is_thin() const { return is_thin_; }

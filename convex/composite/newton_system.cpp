@@ -10,9 +10,8 @@ namespace {
 /// So many multiplications take as long as an evaluation of a function of one variable.
 constexpr double multiplications_of_an_evaluation = 1000;
 
-/// From so many unknowns on a sparse matrix is factored as one, where at most the part of it is there, and
-/// the thin Jacobians have at most the other part of columns.
-constexpr Index many = 64;
+/// A sparse matrix is factored as one from `Jacobian::least_thin` unknowns on, where at most the part of it
+/// is there, and the thin Jacobians have at most the other part of columns.
 constexpr double sparse_part = 0.125, thin_part = 0.125;
 
 /// A matrix that is not definite after its diagonal grew by this part is not so by rounding.
@@ -44,7 +43,7 @@ TermCurvature curvature_of(const SaddleTerm& term, const Vector& t, const Vector
   const Jacobian J = term.f->prox_jacobian(t, D / term.scale);
   if (term.separable) return thin_curvature(Jacobian(J.diagonal()), D, theta, usable);
   // What is stiff in one direction and pliable in others is seen more closely by a full matrix.
-  if (J.is_thin() && term.rows >= many) return thin_curvature(J, D, theta, usable);
+  if (J.is_thin() && term.rows >= Jacobian::least_thin) return thin_curvature(J, D, theta, usable);
   TermCurvature curvature;
   WorkLimit::count(work_of_a_factor(term.rows));
   // D is a multiple of the identity here, so J is symmetric but for rounding.
@@ -118,7 +117,7 @@ void NewtonSystem::factor_dense(const Vector& D, const Vector& ridge) {
 bool NewtonSystem::factor_sparse(const Vector& D, const Vector& ridge) {
   const SaddleProblem& problem = *problem_;
   const Index size = problem.n + problem.k;
-  if (size < many || problem.sparse_G.size() == 0) return false;
+  if (size < Jacobian::least_thin || problem.sparse_G.size() == 0) return false;
   Index thin = 0;
   for (const TermCurvature& curvature : curvature_) {
     if (!curvature.is_thin) return false;
@@ -158,8 +157,10 @@ bool NewtonSystem::factor_sparse(const Vector& D, const Vector& ridge) {
   for (Index i = 0; i < problem.k; ++i) sparse_->values()[at(slots[next++])] += ridge[i];
   WorkLimit::count(static_cast<long>((sparse_->flops() + static_cast<double>(thin * thin * size)) /
                                      multiplications_of_an_evaluation));
-  usable_ = sparse_->factor() && (sparse_->pivots().array() > 0).all();
-  if (!usable_) return false;
+  if (!sparse_->factor() || !(sparse_->pivots().array() > 0).all()) {
+    sparse_.reset();
+    return false;
+  }
   spread_ = columns_;
   for (Index k = 0; k < thin; ++k) {
     Vector column = columns_.col(k);
@@ -168,8 +169,8 @@ bool NewtonSystem::factor_sparse(const Vector& D, const Vector& ridge) {
   }
   small_ =
       linear_algebra::PivotedLu(Matrix::Identity(thin, thin) + weight_ * (columns_.transpose() * spread_));
-  usable_ = thin == 0 || small_.is_regular();
-  return usable_;
+  if (thin > 0 && !small_.is_regular()) sparse_.reset();
+  return sparse_.has_value();
 }
 
 /// (K + Y E Yᵀ)⁻¹b = K⁻¹b - K⁻¹Y (I + E YᵀK⁻¹Y)⁻¹ E YᵀK⁻¹b.

@@ -41,7 +41,9 @@ class Ball2 : public ConvexSet {
     const double distance = from.stableNorm();
     if (distance <= radius_) return Jacobian::identity(n);
     const double part = radius_ / distance;
-    return {Vector::Constant(n, part), from / distance, Matrix::Constant(1, 1, -part)};
+    const Vector normal = from / distance;
+    if (n < Jacobian::least_thin) return part * (Matrix::Identity(n, n) - normal * normal.transpose());
+    return {Vector::Constant(n, part), normal, Matrix::Constant(1, 1, -part)};
   }
   double support(const Vector& v) const override { return support_value(v).value; }
   /// radius |v| + center·v, in twice the working precision where the two may cancel.

@@ -48,7 +48,7 @@ class Slab : public ConvexSet {
     const bool active = two_sided_ ? !a_.isZero(0) : multiplier(z, normal) > 0;
     if (!active) return Jacobian::identity(n);
     const double square = a_.dot(normal);
-    if (d.maxCoeff() == d.minCoeff())
+    if (n >= Jacobian::least_thin && d.maxCoeff() == d.minCoeff())
       return {Vector::Ones(n), a_, Matrix::Constant(1, 1, -1 / (d[0] * square))};
     return Matrix::Identity(n, n) - normal * a_.transpose() / square;
   }
