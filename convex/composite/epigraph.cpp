@@ -107,7 +107,7 @@ class EpigraphAtom final : public Atom {
     const Vector x = z.head(n_);
     const double t = side_ * z[n_], above = f_->value(x) / unit_ - t;
     const auto excess = [&](double mu) -> ValueAndSlope {
-      WorkLimit::count();
+      WorkLimit::count(WorkLimit::of_entries(n_));
       const Vector inverse = Vector::Constant(n_, unit_ / std::max(mu, smallest(z)));
       const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
       const Jacobian J = f_->prox_jacobian(x, inverse);

@@ -115,7 +115,7 @@ class PerspectiveAtom final : public Atom {
     if (square * f_->conjugate().node().value(q) <= -s) return 0;
     const double size = d * z.norm(), least = smallest(size);
     const auto excess = [&](double at_mu) -> ValueAndSlope {
-      WorkLimit::count();
+      WorkLimit::count(WorkLimit::of_entries(n_));
       const double mu = std::max(at_mu, least);
       const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
       const Jacobian J = f_->prox_jacobian(q / mu, step);

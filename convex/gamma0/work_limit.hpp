@@ -19,6 +19,8 @@ class WorkLimit {
   ~WorkLimit();
   WorkLimit(const WorkLimit&) = delete;
   WorkLimit& operator=(const WorkLimit&) = delete;
+  /// What an evaluation of a function of so many entries counts as: few cost hardly more than one.
+  static constexpr long of_entries(long n) { return 1 + n / 16; }
   /// What one evaluation of a saddle problem counts as.
   static constexpr long of_a_saddle_point = 4;
   /// And a search for the nearest point of a domain, whose program is made and solved, often by others
