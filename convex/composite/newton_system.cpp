@@ -81,10 +81,10 @@ NewtonSystem::NewtonSystem(const SaddleProblem& problem, const Vector& t, const 
   for (const SaddleTerm& term : problem.terms)
     curvature_.push_back(curvature_of(term, t.segment(term.first, term.rows),
                                       D.segment(term.first, term.rows), theta, usable_));
-  if (usable_ && !factor_sparse(D, ridge)) factor_dense(D, ridge);
+  if (usable_ && !factor_sparse(ridge)) factor_dense(ridge);
 }
 
-void NewtonSystem::factor_dense(const Vector& D, const Vector& ridge) {
+void NewtonSystem::factor_dense(const Vector& ridge) {
   const SaddleProblem& problem = *problem_;
   Matrix system = problem.G;
   WorkLimit::count(work_of_a_factor(system.rows()));
@@ -102,7 +102,7 @@ void NewtonSystem::factor_dense(const Vector& D, const Vector& ridge) {
     system += product;
     if (curvature.P.cols() == 0) continue;
     const Matrix image = transposed * curvature.P;
-    system -= image * (D[term.first] * curvature.S) * image.transpose();
+    system -= image * (scale_[term.first] * curvature.S) * image.transpose();
   }
   factor_ = linear_algebra::Cholesky(system);
   // The rounding of stiff terms can outweigh the ridge in a direction that nothing else holds.
@@ -114,7 +114,7 @@ void NewtonSystem::factor_dense(const Vector& D, const Vector& ridge) {
   usable_ = usable_ && factor_.is_definite();
 }
 
-bool NewtonSystem::factor_sparse(const Vector& D, const Vector& ridge) {
+bool NewtonSystem::factor_sparse(const Vector& ridge) {
   const SaddleProblem& problem = *problem_;
   const Index size = problem.n + problem.k;
   if (size < Jacobian::least_thin || problem.sparse_G.size() == 0) return false;
@@ -135,7 +135,7 @@ bool NewtonSystem::factor_sparse(const Vector& D, const Vector& ridge) {
     const Index r = curvature.P.cols();
     if (r > 0) {
       columns_.middleCols(first, r) = term.M.transpose() * curvature.P;
-      weight_.block(first, first, r, r) = -D[term.first] * curvature.S;
+      weight_.block(first, first, r, r) = -scale_[term.first] * curvature.S;
     }
     first += r;
   }

@@ -45,13 +45,13 @@ class NewtonSystem {
  private:
   /// The matrix as that of many sparse coordinates and a few columns besides, by the formula of Woodbury;
   /// false where it is none.
-  bool factor_sparse(const Vector& D, const Vector& ridge);
-  void factor_dense(const Vector& D, const Vector& ridge);
+  bool factor_sparse(const Vector& ridge);
+  void factor_dense(const Vector& ridge);
   Vector solve(const Vector& right) const;
 
   const SaddleProblem* problem_;
   double theta_;
-  Vector scale_;  ///< m: D
+  Vector scale_;  ///< D: m
   std::vector<TermCurvature> curvature_;
   linear_algebra::Cholesky factor_;
   std::optional<linear_algebra::SparseFactor> sparse_;
