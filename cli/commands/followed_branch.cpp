@@ -101,6 +101,13 @@ mechanics::OrbitQuestion FollowedBranch::question(const mechanics::LagrangianSys
 
 std::optional<FollowedBranch::Station> FollowedBranch::attempt(double value, const mechanics::State& guess,
                                                                double period) {
+  if (flown_ > most_flown) {
+    why_ =
+        "orbits were sought beside it in vain, for long: events crowd there, as grazes do where impacts "
+        "cease to accumulate; begin at an orbit beyond it";
+    return std::nullopt;
+  }
+  flown_ += 1 + (trail_.empty() ? 0 : trail_.back().orbit.impacts.size());
   try {
     const auto system = family().system(value);
     mechanics::OrbitQuestion asked = question(*system, value);
@@ -226,6 +233,7 @@ long FollowedBranch::periods_of(const Station& at) const {
 }
 
 void FollowedBranch::row(const Station& at, BranchEvent event) {
+  flown_ = 0;
   const mechanics::Orbit& orbit = at.orbit;
   const mechanics::Orbit told = moved(at, t_).orbit;
   table_ += fmt::format("{},{},{},{},{},{},{},{}\n", at.value, orbit.period,

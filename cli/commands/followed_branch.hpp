@@ -85,8 +85,8 @@ class FollowedBranch {
   Passage behind(const Station& at, const Station& before, const Station& after, BranchEvent event);
   /// The contact of which one of them has more impacts, or -1.
   static convex::Index grazed(const Station& a, const Station& b);
-  /// Where the gap, or the speed of the impact, of a contact comes to 0 behind two orbits, before `beyond`; of
-  /// an opening, its multiplier.
+  /// Where the gap, or the speed of the impact, of a contact comes to 0 behind two orbits, before `beyond`;
+  /// of an opening, its multiplier.
   std::optional<Station> locate_grazing(const Station& a, const Station& b, double beyond, convex::Index,
                                         BranchEvent event = BranchEvent::grazing);
 
@@ -124,6 +124,10 @@ class FollowedBranch {
   std::optional<Station> last_;  // in the table
   std::vector<Station> trail_;   // the last few, those between values of the range too
   long count_ = 0;
+  /// Of the orbits sought since the last row, how often they fly from impact to impact; folds and grazes that
+  /// are found take 2,000. Beyond so many the branch ends.
+  static constexpr std::size_t most_flown = 10'000;
+  std::size_t flown_ = 0;
   std::string table_, why_;
   std::vector<BranchPoint> points_;
   std::vector<std::string> remarks_;

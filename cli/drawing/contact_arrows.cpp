@@ -33,6 +33,15 @@ std::optional<Vector> solved(const Matrix& columns, const Vector& u) {
   return F;
 }
 
+/// Whether forces on the place make every reaction of so few coordinates: that they make one tells nothing
+/// then.
+bool makes_any_reaction(const Matrix& columns) {
+  const Index n = columns.rows();
+  for (Index i = 0; i < n; ++i)
+    if (!solved(columns, Vector::Unit(n, i))) return false;
+  return true;
+}
+
 /// One force of two numbers a place, in the order of the places.
 std::optional<Vector> forces(const Vector& u, const std::vector<Spot>& spots, double near) {
   if (spots.size() == 1) return solved(spots[0].columns, u);
@@ -91,17 +100,16 @@ bool ContactArrows::is_about_angle(Index constraint, const Vector& u, const Draw
   return false;
 }
 
-/// Whether a force on the place gives the reaction in another position too: so it is f of the place, and not
-/// any place in the force's line.
+/// Whether a force on the place gives the reaction in another position too, and not any reaction: so it is f
+/// of the place, and not any place in the force's line.
 bool ContactArrows::fits_nearby(Index constraint, const DrawnPlace& place,
                                 const mechanics::State& state) const {
   if (place.end_x >= 0) return false;
   mechanics::State beside = state;
   for (Index i = 0; i < beside.q.size(); ++i)
     beside.q[i] += 1.0 / 1024 / static_cast<double>(1 + i % 7) * std::max(1.0, std::abs(beside.q[i]));
-  return solved(places_.spots({place}, beside, scene_.values(beside)).front().columns,
-                gradient(constraint, beside))
-      .has_value();
+  const Matrix columns = places_.spots({place}, beside, scene_.values(beside)).front().columns;
+  return solved(columns, gradient(constraint, beside)).has_value() && !makes_any_reaction(columns);
 }
 
 DrawnPlaces ContactArrows::places_of(Index constraint, const Vector& u, const DrawnPlaces& near,

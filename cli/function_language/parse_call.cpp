@@ -224,13 +224,6 @@ convex::Vector parse_point(std::string_view text, std::string_view what) {
   return *x;
 }
 
-convex::Matrix parse_matrix(std::string_view text, std::string_view what, Place begin) {
-  constexpr const char* example = "a matrix, such as [[2, 1], [1, 2]]";
-  const Argument list = only_list(text, what, begin, example).value;
-  if (const auto* M = std::get_if<convex::Matrix>(&list)) return *M;
-  throw convex::InvalidInput(std::string(what) + ": a vector; write " + example, begin);
-}
-
 std::vector<convex::Fraction> written_numbers(std::string_view list) {
   std::vector<convex::Fraction> numbers;
   for (const std::string& text : only_list(list, "list", {}, "[1, 2]").written)

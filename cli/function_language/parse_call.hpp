@@ -16,9 +16,8 @@ inline constexpr int deepest_call = 256;
 /// InvalidInput "what: what is wrong; what to do" with the place.
 convex::Call parse_call(std::string_view text, std::string_view what, convex::Place begin = {});
 
-/// Reads a vector, or a matrix, that stands alone. An empty list is a vector.
+/// Reads a vector that stands alone.
 convex::Vector parse_vector(std::string_view text, std::string_view what, convex::Place begin = {});
-convex::Matrix parse_matrix(std::string_view text, std::string_view what, convex::Place begin = {});
 
 /// A vector that is a point: it has entries, and they are finite; where one is not, its place is told.
 convex::Vector parse_point(std::string_view text, std::string_view what);

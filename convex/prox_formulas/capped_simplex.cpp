@@ -92,18 +92,4 @@ Matrix proj_capped_simplex_jacobian(const Vector& z, double cap, double total, c
   return J - pooled(open, d.cwiseInverse()).transpose();
 }
 
-Matrix prox_sum_largest_jacobian(const Vector& z, double k, double weight, const Vector& d) {
-  const Vector x = prox_sum_largest(z, k, weight, d);
-  const Index n = z.size();
-  std::vector<bool> at_level(static_cast<std::size_t>(n));
-  Vector moved = Vector::Ones(n);
-  for (Index i = 0; i < n; ++i)
-    if (x[i] < z[i] && x[i] > z[i] - weight / d[i]) {
-      at_level[static_cast<std::size_t>(i)] = true;
-      moved[i] = 0;
-    }
-  const Matrix J = moved.asDiagonal();
-  return J + pooled(at_level, d);
-}
-
 }  // namespace convex::prox_formulas

@@ -18,6 +18,5 @@ Vector prox_sum_largest(const Vector& z, double k, double weight, const Vector& 
 
 /// An element of the generalised Jacobian at z: n×n.
 Matrix proj_capped_simplex_jacobian(const Vector& z, double cap, double total, const Vector& d);
-Matrix prox_sum_largest_jacobian(const Vector& z, double k, double weight, const Vector& d);
 
 }  // namespace convex::prox_formulas

@@ -17,9 +17,6 @@ Vector proj_box(const Vector& z, double lower, double upper);
 Vector proj_box(const Vector& z, const Vector& lower, const Vector& upper);
 Vector proj_box_slope(const Vector& z, const Vector& lower, const Vector& upper);
 
-/// Nearest point with x >= 0.
-inline Vector proj_orthant(const Vector& z) { return z.cwiseMax(0.0); }
-
 /// Prox of t h(u), h(u) = u²/(2mu) for |u| <= mu, else |u| - mu/2 (Huber 1964), mu >= 0.
 Vector prox_huber(const Vector& z, double mu, double t);
 Vector prox_huber(const Vector& z, double mu, const Vector& t);

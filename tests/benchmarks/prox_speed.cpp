@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "convex/functions/function.hpp"
+#include "convex/functions/norms.hpp"
 #include "convex/prox_formulas/capped_simplex.hpp"
 #include "convex/prox_formulas/exponential_cone.hpp"
 #include "convex/prox_formulas/isotonic.hpp"
@@ -83,9 +85,8 @@ std::vector<Kernel> kernels() {
       {"norm2", [](const Vector& z) { return k::prox_norm2(z, 1); }},
       {"ball2", [](const Vector& z) { return k::proj_ball2(z, 1); }},
       {"group_norm, groups of 10",
-       [](const Vector& z) {
-         const std::vector<Index> sizes(static_cast<std::size_t>(z.size() / 10), 10);
-         return k::prox_group_norm(z, sizes, Vector::Ones(z.size() / 10));
+       [f = convex::group_norm(1, 10)](const Vector& z) {
+         return f.prox(z.head(z.size() / 10 * 10), convex::Metric::identity(z.size() / 10 * 10)).x;
        }},
       {"second_order_cone", k::proj_second_order_cone},
       {"rotated_cone", k::proj_rotated_cone},

@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -92,4 +94,17 @@ TEST_CASE("a picture that gnuplot leaves half drawn does not stay") {
   CHECK(outcome.code == 2);
   CHECK(outcome.err.find("gnuplot cannot draw it") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(picture));
+}
+
+TEST_CASE("a branch on which grazes crowd ends, says so, and keeps its rows") {
+  // From w = 34 to 36 impacts of the teeth cease to accumulate: orbits of 72 to 28 impacts a period.
+  const Folder folder;
+  const std::string gear = folder.path("gear.toml"), table = folder.path("b.csv");
+  REQUIRE(run({"new", "looseness", gear}).code == 0);
+  const Outcome outcome =
+      run({"orbit", gear, "--period", "2*pi/w", "--over", "w=34:2:38", "--output", table});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.find("ends before w = 38: orbits were sought") != std::string::npos);
+  std::ifstream rows(table);
+  CHECK(std::count(std::istreambuf_iterator<char>(rows), {}, '\n') == 3);
 }

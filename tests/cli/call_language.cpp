@@ -77,7 +77,6 @@ TEST_CASE("rows are read as the rows of a matrix, and an empty list as a vector"
   const Call call = parse("affine([[1, 2, 3],\n [4, 5, 6]], b=[ ])");
   CHECK(std::get<Matrix>(call.arguments[0].value) == Matrix{{1, 2, 3}, {4, 5, 6}});
   CHECK(std::get<Vector>(call.arguments[1].value).size() == 0);
-  CHECK(parse_matrix(" [ [2,1] , [1,2] ] ", "metric") == Matrix{{2, 1}, {1, 2}});
 }
 
 TEST_CASE("calls stand in calls, by position and by key") {

@@ -144,3 +144,24 @@ TEST_CASE("the force of a stop that stands still and touches a pendulum is drawn
   REQUIRE(forces.count("stop") == 1);
   CHECK(forces.at("stop")[0].across > 0);
 }
+
+TEST_CASE("the force of a corner on a rod of two coordinates is drawn at the corner, not at the rod's tip") {
+  const auto forces = first_forces(R"toml(
+[system]
+coordinates = ["x", "a"]
+kinetic = "x'^2/2 + ((x + cos(a))'^2 + sin(a)'^2)/2 + a'^2/6"
+potential = "sin(a)"
+[system.constraints]
+step = "x*sin(a) + 0.6*cos(a) <= 0"
+buffer = "x >= -0.8"
+[state]
+position = { x = -0.8, a = "atan2(0.6, 0.8)" }
+[draw]
+segments.rod = [["x", "0"], ["x + 2*cos(a)", "2*sin(a)"]]
+points.corner = ["0", "0.6"]
+)toml");
+  // At rest about the lower end: the weight's moment cos(a) over the corner's distance 1.
+  REQUIRE(forces.count("step") == 1);
+  REQUIRE(forces.at("step").size() == 1);
+  check_force(forces.at("step")[0], {0, 0.6, -0.6 * 0.8, 0.8 * 0.8});
+}

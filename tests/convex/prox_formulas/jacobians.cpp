@@ -4,16 +4,19 @@
 #include <random>
 #include <string>
 
+#include "convex/functions/function.hpp"
+#include "convex/functions/norms.hpp"
+#include "convex/functions/sets.hpp"
 #include "convex/prox_formulas/capped_simplex.hpp"
 #include "convex/prox_formulas/exponential_cone.hpp"
 #include "convex/prox_formulas/isotonic.hpp"
-#include "convex/prox_formulas/norm2.hpp"
 #include "convex/prox_formulas/nuclear_norm.hpp"
 #include "convex/prox_formulas/power_cone.hpp"
 #include "convex/prox_formulas/second_order_cone.hpp"
 #include "convex/prox_formulas/simplex.hpp"
 #include "convex/prox_formulas/spectral.hpp"
 #include "convex/prox_formulas/total_variation.hpp"
+#include "convex/sets/subdifferential.hpp"
 
 using convex::Index;
 using convex::Matrix;
@@ -35,6 +38,15 @@ Vector of3(const Eigen::Vector3d& x) { return x; }
 Matrix of33(const Eigen::Matrix3d& J) { return J; }
 Matrix square(const Vector& z) { return Eigen::Map<const Matrix>(z.data(), 3, 3); }
 
+/// As users have them.
+Case of_function(const std::string& name, Index n, bool plain, const convex::Function& f) {
+  return {name, n, plain,
+          [f](const Vector& z, const Vector& d) { return f.prox(z, convex::Metric::diagonal(d)).x; },
+          [f](const Vector& z, const Vector& d) {
+            return convex::prox_jacobian(f, z, convex::Metric::diagonal(d));
+          }};
+}
+
 std::vector<Case> metric_cases() {
   using V = const Vector&;
   return {
@@ -48,8 +60,7 @@ std::vector<Case> metric_cases() {
        [](V z, V d) { return k::prox_norm_inf_jacobian(z, 2, d); }},
       {"capped simplex", 6, false, [](V z, V d) { return k::proj_capped_simplex(z, 0.8, 2, d); },
        [](V z, V d) { return k::proj_capped_simplex_jacobian(z, 0.8, 2, d); }},
-      {"sum_largest", 6, false, [](V z, V d) { return k::prox_sum_largest(z, 2, 0.8, d); },
-       [](V z, V d) { return k::prox_sum_largest_jacobian(z, 2, 0.8, d); }},
+      of_function("sum_largest", 6, false, convex::sum_largest(2)),
       {"isotonic", 6, false, [](V z, V d) { return k::proj_monotone(z, d).x; },
        [](V z, V d) { return k::blocks_jacobian(k::proj_monotone(z, d), d); }},
       {"total_variation", 6, false, [](V z, V d) { return k::prox_total_variation(z, 0.7, d).x; },
@@ -60,15 +71,11 @@ std::vector<Case> metric_cases() {
 std::vector<Case> plain_cases() {
   using V = const Vector&;
   const Vector center = Vector::LinSpaced(4, -1, 1);
-  const std::vector<Index> sizes{1, 3, 2};
-  const Vector weights = (Vector(3) << 0.5, 1.5, 1).finished();
   std::vector<Case> found{
-      {"ball2", 4, true, [=](V z, V) { return k::proj_ball2(z, 1.5, center); },
-       [=](V z, V) { return k::proj_ball2_jacobian(z, 1.5, center); }},
-      {"norm2", 4, true, [](V z, V) { return k::prox_norm2(z, 1.5); },
-       [](V z, V) { return k::prox_norm2_jacobian(z, 1.5); }},
-      {"group norm", 6, true, [=](V z, V) { return k::prox_group_norm(z, sizes, weights); },
-       [=](V z, V) { return k::prox_group_norm_jacobian(z, sizes, weights); }},
+      of_function("ball2", 4, true, convex::indicator(convex::ball2(1.5, center))),
+      of_function("norm2", 4, true, convex::norm2(1.5)),
+      of_function("norm2 of many", 64, true, convex::norm2(1.5)),
+      of_function("group norm", 6, true, convex::group_norm(1, {1, 3, 2})),
       {"second-order cone", 5, true, [](V z, V) { return k::proj_second_order_cone(z); },
        [](V z, V) { return k::proj_second_order_cone_jacobian(z); }},
       {"rotated second-order cone", 4, true, [](V z, V) { return k::proj_rotated_cone(z); },

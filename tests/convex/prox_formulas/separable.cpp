@@ -130,7 +130,6 @@ TEST_CASE("the box keeps what is inside and takes the nearest bound outside, inf
   for (Index i = 0; i < z.size(); ++i) CHECK(x[i] == std::min(1.0, std::max(-0.5, z[i])));
   CHECK(k::proj_box(z, -infinity, infinity) == z);
   CHECK(k::proj_box(z, Vector::Constant(z.size(), -0.5), Vector::Ones(z.size())) == x);
-  CHECK(k::proj_orthant(z) == z.cwiseMax(0.0));
   CHECK_THROWS_AS(k::proj_box(z, 1, 0), convex::InvalidInput);
   CHECK_THROWS_AS(k::prox_norm1(z, Vector::Ones(2)), convex::InvalidInput);
 }
