@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "cli/commands/command_line.hpp"
 #include "cli/drawing/gnuplot.hpp"
@@ -107,7 +108,9 @@ std::vector<Trial> charted(const std::vector<ChartedProblem>& problems, const Ch
 
 std::string digits_text(double error) {
   if (!std::isfinite(error)) return "-";
-  return error > 0 ? fmt::format("{:.1f}", std::max(0.0, -std::log10(error))) : "exact";
+  return error >= std::numeric_limits<double>::min()
+             ? fmt::format("{:.1f}", std::max(0.0, -std::log10(error)))
+             : "exact";
 }
 
 /// Best on top: for each method its quickest right answer, or else its best.

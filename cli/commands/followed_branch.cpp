@@ -275,10 +275,18 @@ void FollowedBranch::arrive(const Station& next) {
     if (event == BranchEvent::none) break;
     const std::optional<Passage> passage = locate(from, next, event);
     if (is_lost_) return;
-    if (!passage) break;  // told in the row after it
-    row(passage->at, event);
-    from = passage->behind;
+    if (passage) {
+      if (event != BranchEvent::none) row(passage->at, event);
+      from = passage->behind;
+    } else {
+      remarks_.push_back(
+          fmt::format("between {0} = {1} and {2} {3}; at which {0} is not found: take shorter steps",
+                      range_.parameter, from.value, next.value,
+                      event == BranchEvent::grazing ? "the number of impacts changes"
+                                                    : "a " + std::string(event_name(event)) + " lies"));
+    }
     event = BranchEvent::none;
+    if (!passage) break;
   }
   row(next, event);
   last_ = next;

@@ -79,7 +79,7 @@ class FollowedBranch {
   /// The next orbit, and before it those at which something happens on the way, each in a row of its own.
   void arrive(const Station& next);
 
-  /// The first event between two orbits.
+  /// The first event between two orbits; `none` where a multiplier leaps.
   std::optional<Passage> locate(Station a, Station b, BranchEvent& event);
   /// An orbit a little behind one at which something happens.
   Passage behind(const Station& at, const Station& before, const Station& after, BranchEvent event);

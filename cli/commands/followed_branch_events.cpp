@@ -15,6 +15,10 @@ constexpr double halved = 1e-11;
 /// States of one branch at values that agree to ten digits differ by less than this part.
 constexpr double jump = 1e-2;
 
+/// A multiplier that moves so far between values that are nearly one crosses nothing that is told: beside a
+/// graze it grows like the inverse of a root.
+constexpr double leap = 0.1;
+
 /// A multiplier is on the unit circle, and a value settled, but for rounding.
 constexpr double on_circle = 1e-13, settled = 1e-14;
 
@@ -72,6 +76,7 @@ std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station
       }
       if (has_none) return std::nullopt;
     }
+  const Station end = b;
   Crossing crossing(event, a.orbit, b.orbit, asked_.is_free);
   auto left = crossing(a.orbit), right = crossing(b.orbit);
   const double step = std::abs(range_.step);
@@ -99,7 +104,7 @@ std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station
     }
     const auto distance = crossing(found->orbit);
     if (distance && std::abs(*distance) <= on_circle * (1 + found->orbit.circle_width / on_circle / 16))
-      return behind(*found, a, b, event);
+      return behind(*found, a, end, event);
     const bool is_before = distance && left && right ? *distance * *left > 0 : here == BranchEvent::none;
     if (is_before) {
       a = std::move(*found);
@@ -120,6 +125,8 @@ std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station
   if (is_lost_) return std::nullopt;
   constexpr double near = 1e-3;  // part of a step: else it is not known well enough for a row
   if (std::abs(b.value - a.value) > near * step) return std::nullopt;
+  const auto before = crossing(a.orbit), after = crossing(b.orbit);
+  if (before && after && std::abs(*after - *before) > leap) event = BranchEvent::none;
   return Passage{b, b};
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+#include <string_view>
+
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
 #include "cli/manual/help_topics.hpp"
@@ -27,6 +30,16 @@ std::string topic_list() {
   return text;
 }
 
+bool has_word(std::string_view text, const std::string& word) {
+  const auto is_of_word = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
+  };
+  if (word.empty()) return false;
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1))
+    if (!(at > 0 && is_of_word(at - 1)) && !is_of_word(at + word.size())) return true;
+  return false;
+}
+
 /// The help on a topic, a command, a function or a method.
 std::string help_text(CLI::App& program, const std::string& name) {
   std::vector<std::string> known;
@@ -44,6 +57,10 @@ std::string help_text(CLI::App& program, const std::string& name) {
     return fmt::format("{}: {}\n", method->name, method->summary);
   for (const convex::CatalogueEntry& entry : convex::catalogue()) known.emplace_back(entry.name);
   for (const convex::Method& method : convex::methods()) known.emplace_back(method.name);
+  for (const HelpTopic& topic : help_topics())
+    if (has_word(topic.text, name))
+      throw convex::InvalidInput(
+          fmt::format("there is no topic \"{}\"; `moreau help {}` tells of it", name, topic.name));
   throw convex::InvalidInput("there is no topic \"" + name + "\"; " +
                              convex::suggestion(name, known, "`moreau help` lists them"));
 }

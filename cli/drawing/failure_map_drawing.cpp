@@ -17,7 +17,7 @@ namespace {
 /// Pixels: of a page 700 wide, the names of methods, a row of cells, and of each diagram what is above its
 /// cells (its title) and below them (settings, what they set, room).
 constexpr int most_columns = 3, names_width = 136, page_width = 700, gap = 12, row_height = 14,
-              title_height = 24, settings_height = 52, legend_height = 66;
+              title_height = 24, settings_height = 66, legend_height = 66;
 
 /// Digits of accuracy on a scale whose lightness alone orders it (after viridis: van der Walt and Smith
 /// 2015).

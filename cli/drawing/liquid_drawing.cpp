@@ -99,12 +99,13 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
       between, between, below_largest * found.largest);
   std::string heading = liquid_title(found, title);
   if (found.largest > 0) heading += fmt::format("; contours every {:g}", between);
-  if (scene.dimension() == 3)
-    heading += fmt::format("; section {} = {:.4g}", scene.coordinates[axes[2]], section.height());
+  const bool is_cut = scene.dimension() == 3;  // what goes across the section is no arrow in it
+  if (is_cut) heading += fmt::format("; section {} = {:.4g}", scene.coordinates[axes[2]], section.height());
   if (arrows.fastest > 0)
-    heading += fmt::format("\narrows: the velocity, the longest {:.4g}", arrows.fastest);
+    heading += fmt::format("\narrows: the velocity{}, the longest {:.4g}", is_cut ? " along the section" : "",
+                           arrows.fastest);
   else if (with_velocity)
-    heading += "\nthe velocity is 0";
+    heading += is_cut ? "\nno velocity along the section" : "\nthe velocity is 0";
   const double room = 0.03 * std::max(section.side(0), section.side(1));
   script += fmt::format(
       "set title {}\nset xlabel {}\nset ylabel {}\nset size ratio -1\nunset key\nset tics out\nset xrange "

@@ -210,6 +210,7 @@ std::vector<SectionPoint> LiquidSection::parted() const {
       const BoundaryPart* part = scene_.part_at(there);
       if (part == nullptr || part->is_free || !(found_.p(there) <= 1e-3 * found_.largest)) continue;
       if (std::find(names.begin(), names.end(), part->name) == names.end()) continue;
+      if (!scene_.wall_leaves(*part, there)) continue;
       points.push_back(foot);
     }
   return points;

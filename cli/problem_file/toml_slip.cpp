@@ -104,6 +104,11 @@ bool is_unit(const std::string& text) {
   return is_known();
 }
 
+std::string advice_on_comma(const std::string& whole, const std::string& digits) {
+  return digits.size() == 3 ? "a comma in a number; write " + whole + "." + digits + " or " + whole + digits
+                            : "a decimal comma; write " + whole + "." + digits;
+}
+
 /// What stands behind a whole number or text, where the line should end.
 std::string advice_on_rest(const std::string& token, const std::string& given) {
   if (begins_a_key(given)) return "two keys on a line; give each a line of its own, or join them in { }";
@@ -114,11 +119,8 @@ std::string advice_on_rest(const std::string& token, const std::string& given) {
     return "\"" + rest.substr(0, 2) + "\" begins no comment; write # before it";
   if (token.front() == '"') return "";
   const std::string behind = rest.substr(0, rest.find_first_of("#,}"));
-  if (c == ',' && rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0) {
-    const std::string digits = without_spaces_around(rest.substr(1));
-    return digits.size() == 3 ? "a comma in a number; write " + token + "." + digits + " or " + token + digits
-                              : "a decimal comma; write " + token + "." + digits;
-  }
+  if (c == ',' && rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0)
+    return advice_on_comma(token, without_spaces_around(rest.substr(1)));
   if (is_letter(c) && (behind.find_first_of("*^()=<>+") == std::string::npos || is_unit(behind)))
     return token + " " + without_spaces_around(behind) + " is no number; write " + token +
            " with its unit in a comment, # " + without_spaces_around(behind) +
@@ -174,6 +176,19 @@ std::string key_before(const Spot& spot) {
   return spot.line.substr(begin, end - begin);
 }
 
+/// { x = 0,5 }: what stands behind the comma is taken for a key, and is none.
+std::string advice_on_key(const Spot& spot, const std::string& key) {
+  const std::string number = without_spaces_around(spot.line.substr(0, spot.here));
+  if (key.empty() || key.find_first_not_of("0123456789") != std::string::npos ||
+      number.size() <= key.size() || number[number.size() - key.size() - 1] != ',')
+    return "";
+  const std::size_t comma = number.size() - key.size() - 1;
+  std::size_t begin = comma;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(number[begin - 1])) != 0) --begin;
+  if (begin > 0 && begin < comma && (number[begin - 1] == '-' || number[begin - 1] == '+')) --begin;
+  return begin == comma ? "" : advice_on_comma(number.substr(begin, comma - begin), key);
+}
+
 /// "[state": the bracket is missing behind the name.
 std::string advice_on_header(const std::string& line) {
   const std::size_t open = line.find('[');
@@ -207,6 +222,7 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
     return "a text without its closing quotation mark; add it";
   if (!says(description, "expected '='")) return "";
   const std::string key = key_before(spot);
+  if (const std::string advice = advice_on_key(spot, key); !advice.empty()) return advice;
   if (says(description, "saw ':'")) return "a colon between a key and its value; write " + key + " = …";
   if (says(description, "saw '''"))
     return "a key has no prime; velocities are named as their coordinates, velocity = { x = 1.0 }";

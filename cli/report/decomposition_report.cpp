@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cli/json_writer.hpp"
+#include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
@@ -199,9 +200,13 @@ std::string split_text(const SplitPoint& solved) {
   const convex::Decomposition& split = solved.split;
   const convex::Vector& z = solved.problem.z;
   TextTable table({"", "z", "x = prox_f z", "y = prox_g z"});
+  // x + y = z: what is rounding beside z and within the bound is 0.
+  const auto told = [&](double part, double whole) {
+    return number_text(std::abs(part) <= split.error_bound ? without_rounding(part, std::abs(whole)) : part);
+  };
   for (Index i = 0; i < std::min(z.size(), most_rows); ++i)
     table.add(
-        {fmt::format("[{}]", i), number_text(z[i]), number_text(split.x.x[i]), number_text(split.y.x[i])});
+        {fmt::format("[{}]", i), number_text(z[i]), told(split.x.x[i], z[i]), told(split.y.x[i], z[i])});
   std::string text = table.text();
   if (z.size() > most_rows)
     text += fmt::format("  … and {} more entries; --json gives all\n", z.size() - most_rows);

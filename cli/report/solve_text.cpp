@@ -276,10 +276,13 @@ std::string accuracy_text(const SolvedScene& solved) {
   // itself.
   const bool may_be_zero = scale > 0 && relative >= 1 && primal.status == convex::Status::solved;
   const double unit = scale > 0 && !may_be_zero ? scale : 1;
-  std::string accuracy = fmt::format(
-      "{}error of the acceleration at most {}{}{}{}", may_be_zero ? "" : "relative ",
-      is_proved(solved.certificate) ? "" : "about ", error_text(relative > 0 ? primal.error_bound / unit : 0),
-      may_be_zero ? " in the kinetic norm (it may be 0)" : "", proof_text(solved.certificate));
+  const std::string bound =
+      relative > 0
+          ? fmt::format("{}error of the acceleration at most {}{}{}", may_be_zero ? "" : "relative ",
+                        is_proved(solved.certificate) ? "" : "about ", error_text(primal.error_bound / unit),
+                        may_be_zero ? " in the kinetic norm (it may be 0)" : "")
+          : "the acceleration is exact";
+  std::string accuracy = bound + proof_text(solved.certificate);
   const std::string mechanism = mechanism_text(solved);
   if (solved.as_evaluated && solved.verbose)
     accuracy +=

@@ -70,10 +70,11 @@ std::string rule_text(const SolvedScene& solved) {
   std::string truth = "nothing opens";
   if (open.size() == 1)
     truth = "only " + open[0] + " opens";
-  else if (open.size() == 2)
-    truth = "both " + listed(open) + " open";
   else if (!open.empty())
-    truth = listed(open) + " open";
+    truth = (open.size() < negative.size() ? "only "
+             : open.size() == 2            ? "both "
+                                           : "") +
+            listed(open) + " open";
   return fmt::format(
       "The rule \"drop the contacts with a negative multiplier\" is wrong here (Delassus 1917):\n{} {}, but "
       "{}: dropping {} would {}.\n",

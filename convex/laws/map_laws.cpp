@@ -76,6 +76,10 @@ class MapSearch {
     }
   }
 
+  bool is_within(const Vector& z) const {
+    return z.minCoeff() >= samples_.low && z.maxCoeff() <= samples_.high;
+  }
+
   /// Where the map stretches a little, or turns: steps of several lengths from some points.
   std::vector<ExactVector> close_pairs() {
     std::vector<ExactVector> points;
@@ -88,7 +92,7 @@ class MapSearch {
         do
           for (double& part : step) part = entry(random_);
         while (step.isZero(0));
-        points.push_back(exact_vector(Vector(from + length * step)));
+        if (is_within(from + length * step)) points.push_back(exact_vector(Vector(from + length * step)));
       }
     }
     return points;
@@ -220,6 +224,8 @@ class MapSearch {
 
   /// Doubles look first: fractions and balls are for what may go down.
   bool refuted_on(const std::vector<Vector>& corners) {
+    for (const Vector& corner : corners)
+      if (!is_within(corner)) return false;
     ++verdict_.polygons;
     if (!may_go_down(T_, gram_, corners)) return false;
     std::vector<ExactVector> points;

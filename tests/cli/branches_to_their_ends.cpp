@@ -108,3 +108,26 @@ TEST_CASE("a branch on which grazes crowd ends, says so, and keeps its rows") {
   std::ifstream rows(table);
   CHECK(std::count(std::istreambuf_iterator<char>(rows), {}, '\n') == 3);
 }
+
+TEST_CASE("what crosses a branch is told once, and a branch that two periods go through has what one has") {
+  // The orbit of one period flips where that of two, which it is as well, has the multiplier 1.
+  const Folder folder;
+  const std::string file = folder.write(
+      "o.toml",
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n[system.parameters]\n"
+      "w = 2\n[system.forces]\nx = \"cos(w*t) - 0.1*x'\"\n[system.constraints]\nstop = \"x >= 0\"\n"
+      "[simulate]\nrestitution = 0.8\n[state]\nposition = { x = 0.5 }\nvelocity = { x = 0.5 }\n");
+  const Outcome twice = run({"orbit", file, "--period", "4*pi/w", "--over", "w=2.6:0.05:2.8"}),
+                once = run({"orbit", file, "--period", "2*pi/w", "--over", "w=2.6:0.05:2.8"});
+  for (const Outcome& outcome : {twice, once}) {
+    CHECK(outcome.code == 0);
+    CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 1 + 5 + 1);
+  }
+  const std::size_t told = twice.err.find("a multiplier passes 1");
+  CHECK(told != std::string::npos);
+  CHECK(twice.err.find("a multiplier passes 1", told + 1) == std::string::npos);
+  const std::size_t flip = once.out.find(",flip,"), row = once.out.rfind('\n', flip) + 1;
+  REQUIRE(flip != std::string::npos);
+  const std::string value = once.out.substr(row, 12);
+  CHECK(twice.err.find("at w = " + value) != std::string::npos);
+}

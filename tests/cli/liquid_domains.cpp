@@ -67,6 +67,27 @@ TEST_CASE(
   CHECK(wrong.err.find("--plane x,w: no coordinate \"w\"") != std::string::npos);
 }
 
+TEST_CASE(
+    "of a liquid in three dimensions a section's arrows are what runs along it, and the heading says so") {
+  // u = (y z, 0, 0) crosses the planes of x, and runs along those of y.
+  const Folder folder;
+  const std::string file =
+      folder.write("box.toml",
+                   "[liquid]\ncoordinates = [\"x\", \"y\", \"z\"]\ndomain = "
+                   "\"box(low=[0, 0, 0], high=[2, 2, 1])\"\ndensity = 1\ncells = 16\n"
+                   "velocity = [\"y*z\", \"0\", \"0\"]\nforce = [0, 0, -10]\nfree = { top = "
+                   "{ where = \"z >= 1\", pressure = 1 } }\nwalls = { rest = { where = "
+                   "\"true\", acceleration = 0 } }\n");
+  const std::string picture = folder.path("p.svg");
+  const auto drawn = [&](const std::string& plane) {
+    CHECK(run({"solve", "--velocity", "--plot", picture, "--plane", plane, file}).code <= 1);
+    std::ifstream stream(picture);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  CHECK(drawn("y,z").find("no velocity along the section") != std::string::npos);
+  CHECK(drawn("x,z").find("arrows: the velocity along the section, the longest ") != std::string::npos);
+}
+
 TEST_CASE("a part of no boundary point is told by its name, and one that takes what is left is not") {
   const Folder folder;
   const auto solved = [&](const std::string& coordinates, const std::string& domain, const std::string& top) {

@@ -169,6 +169,29 @@ TEST_CASE(
         std::string::npos);
 }
 
+TEST_CASE("a wall that asks for nothing is not marked where walls of its name part beside it") {
+  // The floor of an angle and the ceiling of its foot part; the wall x = 2 between them stands still, F along
+  // it.
+  const Folder folder;
+  const std::string page_file = folder.path("angle.html");
+  const std::string angle =
+      "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = "
+      "\"polygon(vertices=[[0,0],[2,0],[2,1],[1,1],[1,2],[0,2]])\"\ndensity = 1\nforce = [\"0\", \"-10\"]\n"
+      "free = { top = { where = \"y >= 2\", pressure = 5 } }\nwalls = { floor = { where = \"y <= 0\", "
+      "acceleration = \"a\" }, rest = { where = \"true\", acceleration = 0 } }\n[liquid.parameters]\na = "
+      "30\n";
+  run({"solve", folder.write("l.toml", angle), "--animate", page_file, "--over", "a=30,31"});
+  const PageJson frame = liquid_of(text_of(page_file))["frames"][0];
+  REQUIRE(frame["parted_walls"] == PageJson::parse("[\"floor\", \"rest\"]"));
+  REQUIRE(frame["parted"].size() > 50);
+  for (const PageJson& at : frame["parted"]) {
+    const double x = at[0], y = at[1];
+    CAPTURE(x);
+    CAPTURE(y);
+    CHECK((y == 0 || (y == 1 && x > 1)));
+  }
+}
+
 TEST_CASE("what is wrong in --animate and --over of a liquid is told") {
   const Folder folder;
   const std::string tube = tests::source_folder() + "docs/problems/liquid_tube.toml",

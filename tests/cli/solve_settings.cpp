@@ -123,6 +123,17 @@ TEST_CASE("an answer that is not solved is no truth to judge the rule of droppin
   CHECK(right.out.find("is wrong here (Delassus 1917)") != std::string::npos);
 }
 
+TEST_CASE("fewer contacts that open than multipliers that are negative are told as the only ones") {
+  const Folder folder;
+  const std::string file = folder.write("three.toml",
+                                        "[projection]\nA = { diagonal = [1, 1, 1] }\nz = [0, 0, 2]\n"
+                                        "U = [[-2, 2, -2], [0, -1, 2], [1, 2, 0]]\ns = [0, 0, 0]\n");
+  const std::string told = run({"solve", file}).out;
+  CAPTURE(told);
+  CHECK(told.find("c[0], c[1] and c[2] have negative multipliers, but only c[1] and c[2] open:") !=
+        std::string::npos);
+}
+
 TEST_CASE("fractions that the text proves are told where they can be read") {
   const std::string told =
       run({"solve", "--certify", tests::source_folder() + "docs/problems/delassus_drops_too_much.toml"}).out;
