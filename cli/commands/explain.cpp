@@ -56,7 +56,24 @@ std::optional<Table> table_of(const std::vector<std::string>& lines) {
              : std::nullopt;
 }
 
-/// A report that is text already: what stands between two empty lines is a table, or each line a paragraph.
+/// Lines of columns below a line that is their title make a table, each other line a paragraph.
+void add_titled_tables(const std::vector<std::string>& lines, std::vector<Block>& blocks) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::size_t width = k + 1 < lines.size() ? cells(lines[k + 1]).size() : 0;
+    if (width < 2 || cells(lines[k]).size() != 1) {
+      blocks.emplace_back(Paragraph{{lines[k]}});
+      continue;
+    }
+    Table table{cells(lines[k]), {}};
+    table.head.resize(width);
+    for (; k + 1 < lines.size() && cells(lines[k + 1]).size() == width; ++k)
+      table.rows.push_back(cells(lines[k + 1]));
+    blocks.emplace_back(std::move(table));
+  }
+}
+
+/// A report that is text already: what stands between two empty lines is a table, titled tables, or
+/// paragraphs.
 Document document_of_lines(const std::string& title, const std::string& text) {
   Document document{title, {}};
   std::vector<std::string> lines;
@@ -64,7 +81,7 @@ Document document_of_lines(const std::string& title, const std::string& text) {
     if (auto table = table_of(lines))
       document.blocks.emplace_back(std::move(*table));
     else
-      for (const std::string& line : lines) document.blocks.emplace_back(Paragraph{{line}});
+      add_titled_tables(lines, document.blocks);
     lines.clear();
   };
   for (std::size_t at = 0; at < text.size();) {

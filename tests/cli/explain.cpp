@@ -204,6 +204,15 @@ TEST_CASE("a free motion is at the distance 0 of the point nearest to it, and ro
   CHECK(text.find("= (2.5, 0)") != std::string::npos);
 }
 
+TEST_CASE("the rows of a cone stand below their title, in every form") {
+  const std::string cone = "[cone]\ngenerators = [[1, 0], [1, 1]]\n";
+  CHECK(run_on("explain", cone).out.find("generators\n  g[0]") != std::string::npos);
+  const Folder folder;
+  const std::string marked = run({"explain", "--markdown", folder.write("c.toml", cone)}).out;
+  CHECK(marked.find("| generators |  |  |\n| --- | ---: | ---: |\n| g[0] | 1 | 0 |\n| g[1] | 1 | 1 |") !=
+        std::string::npos);
+}
+
 TEST_SUITE("pdflatex") {
   TEST_CASE("the LaTeX file of each problem compiles, and no line of it leaves the page") {
     const Folder folder;
