@@ -109,8 +109,9 @@ double seen_length(std::span<const double> argument, TaylorStep::Kind of, double
   const double most = has_poles ? 1 : reach;
   if (std::isfinite(step) && sum_of_terms(u, step) <= most) return step;
   double longest = length_of_majorant(u, most, size);
-  // exp(-746) is 0, exp(710) is infinite, on a branch that is not taken, and 1 - tanh² at 40 is e^-80.
-  constexpr double least_logarithm = 746, most_logarithm = 710, end_of_tanh = 40;
+  // exp(-746) is 0, exp(710) and cosh(711) are infinite, on a branch that is not taken or below a fraction,
+  // and 1 - tanh² at 40 is e^-80.
+  constexpr double least_logarithm = 746, most_logarithm = 710, end_of_cosh = 711, end_of_tanh = 40;
   const auto stays_below = [&](double bound) {
     if (u[0] < bound) longest = std::max(longest, length_of_majorant(u, bound - u[0], up));
   };
@@ -120,6 +121,10 @@ double seen_length(std::span<const double> argument, TaylorStep::Kind of, double
   if (of == TaylorStep::Kind::exponential) {
     stays_below(-least_logarithm);
     stays_above(most_logarithm);
+  }
+  if (of == TaylorStep::Kind::sinh) {
+    stays_below(-end_of_cosh);
+    stays_above(end_of_cosh);
   }
   if (of == TaylorStep::Kind::tanh) {
     stays_below(-end_of_tanh);

@@ -30,6 +30,9 @@ std::vector<std::size_t> places(const TaylorProgram& of, std::size_t width) {
   return place;
 }
 
+/// The root of the largest double.
+constexpr double far = 0x1p512;
+
 std::span<const TaylorRows::Product> first_products(const TaylorRows& rows, std::size_t groups) {
   return {rows.products.data(), rows.ends[groups - 1].products};
 }
@@ -160,8 +163,14 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       return;
     case Kind::quotient: {  // f b = a
       const double inverse = 1 / b;
-      by[0].c = inverse;
-      by[1].c = -f * inverse;
+      // Of b the next orders may be beyond what doubles hold, and f is nothing beside what they do.
+      if (std::abs(b) > far && std::abs(f) < 1 / far) {
+        by[0] = by[1] = {rows_.zero, 0};
+        factor[0] = 0;
+        return;
+      }
+      by[0] = {step.a, inverse};
+      by[1] = {step.b, -f * inverse};
       factor[0] = -inverse;
       return;
     }
@@ -246,9 +255,11 @@ void TaylorSeries::cut() {
 double TaylorSeries::of_row(std::size_t number) const {
   const TaylorRows::Row& row = rows_.rows[number];
   double sum = 0;
-  for (std::uint32_t p = row.first_product; p < row.end_product; ++p)
-    sum += rows_.products[p].scale * products_.rest()[p];
-  sum *= factor_[number];
+  if (factor_[number] != 0) {  // else they need not be finite
+    for (std::uint32_t p = row.first_product; p < row.end_product; ++p)
+      sum += rows_.products[p].scale * products_.rest()[p];
+    sum *= factor_[number];
+  }
   for (std::uint32_t t = row.first; t < row.end; ++t) sum += terms_[t].c * now_[terms_[t].series];
   return sum;
 }

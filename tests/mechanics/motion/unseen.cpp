@@ -270,3 +270,16 @@ TEST_CASE("a narrow bump that a quotient makes is met, however far away and howe
   REQUIRE(struck.motion.record().impacts == 1);
   CHECK(struck.events[0].t == doctest::Approx(49.99).epsilon(1e-9));
 }
+
+TEST_CASE("a pulse whose denominator grows beyond what doubles hold ends there, and the motion goes on") {
+  // x'' = 1/cosh(kx) has the potential -2/k arctan(tanh(kx/2)), which rises by -π/k in all.
+  for (const double k : {1.0, 300.0, 1e4}) {
+    CAPTURE(k);
+    const Followed motion =
+        followed({{"x"}, "x'^2/2", "", {{"k", std::to_string(k)}}, {}, {{"x", "1/cosh(k*x)"}}, {}},
+                 state({-800}, {3}), 1000);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(std::abs(motion.end().v[0] - std::sqrt(9 + 2 * std::acos(-1.0) / k)) <= 1e-12);
+    CHECK(motion.motion.record().steps < 1000);
+  }
+}
