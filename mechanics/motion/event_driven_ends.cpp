@@ -23,6 +23,12 @@ constexpr double roundings_of_step = 4;
 constexpr long steps_crowded = 100'000;
 constexpr double part_of_crowd = 1e-7;
 
+/// Two such crowds that took the same time but for this part go on evenly, as a body does that a relay draws
+/// back over and over: where the end asked for is so many times farther than the limit of steps leads, no
+/// crowd more is followed.
+constexpr double even_part = 1e-3;
+constexpr double times_too_far = 100;
+
 }  // namespace
 
 /// Whether contacts that exclude each other at an impact do so by no more than rounding of f tells: at speeds
@@ -103,10 +109,20 @@ void Motion::EventDriven::look_for_progress() {
     mark_ = record.steps, impacts_at_mark_ = record.impacts, time_of_mark_ = since_start_;
   }
   if (record.steps % steps_crowded != 0) return;
-  if (status == MotionStatus::done && since_start_ - time_of_crowd_ < part_of_crowd * since_start_)
+  const double took = since_start_ - time_of_crowd_, left = until_ - start_ - since_start_,
+               crowds = static_cast<double>(options.step_limit - record.steps) / steps_crowded;
+  if (status == MotionStatus::done && took < part_of_crowd * since_start_)
     stop("at t = " + number_text(state.t) + ": " + std::to_string(steps_crowded) +
-         " events have come within " + number_text(since_start_ - time_of_crowd_) + ", and do not end" +
+         " events have come within " + number_text(took) + ", and do not end" + advice_on_kinks());
+  const bool is_even = std::abs(took - last_crowd_) <= even_part * took;
+  if (status == MotionStatus::done && record.events > events_at_crowd_ && is_even &&
+      left > times_too_far * crowds * took)
+    stop("at t = " + number_text(state.t) + ": " + std::to_string(steps_crowded) +
+         " steps between events that do not end take no more than " + number_text(took) +
+         "; the end asked for is too far for the limit of " + std::to_string(options.step_limit) + " steps" +
          advice_on_kinks());
+  last_crowd_ = took;
+  events_at_crowd_ = record.events;
   time_of_crowd_ = since_start_;
 }
 

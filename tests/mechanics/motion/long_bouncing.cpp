@@ -169,3 +169,17 @@ TEST_CASE("a motion that cannot begin stays at its time, with no accelerations t
     CHECK(found.motion.multipliers().size() == 0);
   }
 }
+
+TEST_CASE("a relay that draws a body back ever so soon is not followed to the limit of steps in vain") {
+  // Half a period takes 2 v: the end is 5e9 of them away.
+  const Followed motion =
+      followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "-sign(x)"}}, {}}, state({0}, {1e-9}), 10);
+  CHECK(motion.motion.status() == MotionStatus::stopped);
+  CHECK(motion.motion.why().find("too far") != std::string::npos);
+  CHECK(motion.motion.record().steps < 1'000'000);
+  // So many as the limit allows are followed.
+  const Followed slower =
+      followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "-sign(x)"}}, {}}, state({0}, {1e-5}), 10);
+  CHECK(slower.motion.status() == MotionStatus::done);
+  CHECK(std::abs(slower.end().q[0]) <= 1e-10);
+}
