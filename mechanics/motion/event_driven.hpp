@@ -103,6 +103,7 @@ class Motion::EventDriven final : public Motion::Course {
   double left_of_argument(std::size_t k, double tau);
   bool has_left_zero(std::size_t k, double tau, double times);
   std::vector<Zero> left_behind();
+  void come_to_rest(std::vector<Zero>& zeros);
   std::optional<HeldRows::Answer> acceleration_off_zero(double tau);
   std::optional<HeldRows::Answer> acceleration_off_zero(const State& there,
                                                         const std::vector<std::size_t>& left, double tau = 0);
@@ -192,6 +193,8 @@ class Motion::EventDriven final : public Motion::Course {
   long mark_ = -1, impacts_at_mark_ = 0;  // steps, impacts and time where progress was looked at last
   double time_of_mark_ = 0;
   double time_of_crowd_ = 0;  // when as many steps had been taken as are looked at for a crowd
+  double last_crowd_ = 0;     // the time that the crowd before took
+  long events_at_crowd_ = 0;
   double until_ = std::numeric_limits<double>::infinity();  // not asked for yet
   /// At an event, on the branches before it, with the velocity after it.
   struct Behind {

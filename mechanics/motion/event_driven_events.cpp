@@ -71,6 +71,8 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
     arguments_[k].branch_behind = expansion_.branch(k);
     if (expansion_.branch(k) != 0) arguments_[k].left_of_zero = 0;
   }
+  for (const Zero& zero : zeros)
+    if (zero.left > 0) arguments_[static_cast<std::size_t>(zero.which)].left_of_zero = zero.left;
   note_behind();
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   // Those that stayed 0 may go on otherwise; and where double zeros are one, rounding parts them.

@@ -139,6 +139,7 @@ std::vector<Zero> Motion::EventDriven::left_behind() {
     if (is_weak_[k] && expansion_.multiplier(a)[0] < -room_of_weak * least_multiplier_[k])
       found.push_back({Zero::Of::multiplier, a, done.length});
   }
+  come_to_rest(found);
   return found;
 }
 

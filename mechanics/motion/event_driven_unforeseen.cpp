@@ -110,6 +110,23 @@ void Motion::EventDriven::take_signs_beside(const std::vector<Index>& switches, 
   }
 }
 
+/// Where roots or powers of what is 0 but for rounding count as 0, an argument that is 0 as far, and stays
+/// what it is, has come to rest there: a velocity under -√v does so in a finite time, and does not cross 0.
+void Motion::EventDriven::come_to_rest(std::vector<Zero>& zeros) {
+  const auto near = expansion_.arguments_left_by_rounding();
+  std::vector<Index> which;
+  for (const auto& one : near) which.push_back(one.first);
+  const auto roundings = expansion_.rounding_of_switches(which, expansion_.order() - 1);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const auto k = static_cast<std::size_t>(which[i]);
+    const std::span<const double> c = expansion_.switch_argument(k).first(expansion_.known_of_argument(k));
+    bool stays = true;
+    for (std::size_t j = 1; j < c.size(); ++j) stays = stays && std::abs(c[j]) <= roundings[i][j];
+    if (stays)
+      zeros.push_back({Zero::Of::branch, which[i], done.length, false, false, false, near[i].second});
+  }
+}
+
 /// The switches of which that holds at a time of the next arc.
 void Motion::EventDriven::note_across(double tau) {
   for (std::size_t k = 0; k < expansion_.switches(); ++k)

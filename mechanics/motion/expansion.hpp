@@ -97,6 +97,8 @@ class Expansion {
   /// Where a root or a power is taken of what rounding has left of a 0, as that of |v| is where v turns, it
   /// is one of 0 at this state, if all is finite then. Returns whether there is another one of that kind.
   bool take_bases_for_zero();
+  /// Where that was done: the switches beside 0 whose arguments rounding may have made as well, and how much.
+  std::vector<std::pair<Index, double>> arguments_left_by_rounding();
   /// The gradient of f_a is 0 here, though f_a has q in it.
   bool is_singular(Index a) const { return !equations_.row[index(a)].empty() && row(a).isZero(0); }
   /// The largest of |u_i v_i| and |∂f/∂t|: what df/dt is the sum of.

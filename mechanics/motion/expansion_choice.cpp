@@ -133,6 +133,20 @@ bool Expansion::take_bases_for_zero() {
   return may_be;
 }
 
+std::vector<std::pair<Index, double>> Expansion::arguments_left_by_rounding() {
+  std::vector<std::pair<Index, double>> found;
+  if (series_.bases_at_zero().empty()) return found;
+  magnitude_.begin(fastest_);
+  magnitude_is_begun_ = false;
+  for (std::size_t k = 0; k < switches(); ++k) {
+    const Slot argument = steps_.switches[k].argument;
+    const double left = rounding(0) * if_finite(magnitude_.at(argument, 0));
+    if (branch(k) != 0 && std::abs(series_[argument][0]) <= left)
+      found.emplace_back(static_cast<Index>(k), left);
+  }
+  return found;
+}
+
 double Expansion::rounding(int k) const {
   return (roundings_of_state + static_cast<double>(series_.operations() * static_cast<std::size_t>(k + 1))) *
          convex::unit_roundoff;

@@ -15,6 +15,7 @@ struct Zero {
   bool is_touch = false;
   bool is_soft = false;  ///< it comes to 0 with its rate, and does not go up again
   bool is_jump = false;  ///< past it, and not through it
+  double left = 0;       ///< of an argument: so far rounding may have made it
 };
 
 /// What is watched on an arc.

@@ -306,3 +306,15 @@ TEST_CASE("a slide stops a motion however the velocity is written that changes i
     CHECK(motion.motion.why().find("slides") != std::string::npos);
   }
 }
+
+TEST_CASE("a velocity that a power of it below the first brings to rest in a finite time rests there") {
+  for (const double power : {0.1, 0.35, 0.9}) {  // v' = -v^p
+    CAPTURE(power);
+    const std::string p = std::to_string(power);
+    const Followed motion = pushed("-abs(x')^" + p + "*sign(x')", 0, 1, 20);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(1 / (2 - power)).epsilon(1e-10));
+    CHECK(std::abs(motion.end().v[0]) < 1e-12);
+    CHECK(motion.motion.record().steps < 1000);
+  }
+}
