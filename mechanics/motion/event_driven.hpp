@@ -104,6 +104,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool has_left_zero(std::size_t k, double tau, double times);
   std::vector<Zero> left_behind();
   void come_to_rest(std::vector<Zero>& zeros);
+  void keep_unseen(ContactAnswer& answer);
   std::optional<HeldRows::Answer> acceleration_off_zero(double tau);
   std::optional<HeldRows::Answer> acceleration_off_zero(const State& there,
                                                         const std::vector<std::size_t>& left, double tau = 0);

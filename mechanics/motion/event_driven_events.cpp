@@ -258,7 +258,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
         "at t = " + number_text(state.t) +
         ": both arguments of an atan2 are 0, and nothing tells the angle there; write the expressions "
         "without it, or begin beside that place");
-  const std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
+  std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
   if (answer && meet_kinks(contacts, switches)) return;
   if (!answer) {
     const std::string obstacle = "at t = " + number_text(state.t) + ": " + obstacle_ahead(contacts, switches);
@@ -284,6 +284,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
            "whether " + constraint_name(a) +
                " stays closed hangs on a number so small beside its terms that rounding may have made it, or "
                "hidden it");
+  keep_unseen(*answer);
   persist_ = answer->persist;
   for (const auto& [a, order] : answer->open) zeros_of_f_[static_cast<std::size_t>(a)] = order;
   for (const Index a : persist_) {

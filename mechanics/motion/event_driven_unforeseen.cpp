@@ -127,6 +127,30 @@ void Motion::EventDriven::come_to_rest(std::vector<Zero>& zeros) {
   }
 }
 
+/// A contact whose gradient others make up, and which a higher derivative opens, stays among those that
+/// persist where f is not seen to leave 0 on the arc ahead: rounding of lower orders covers it as far as the
+/// series reach, and zeros of f there are those of rounding.
+void Motion::EventDriven::keep_unseen(ContactAnswer& answer) {
+  std::vector<Index> in_question;
+  for (const auto& [a, order] : answer.open)
+    if (order > 2 && expansion_.is_nearly_implied(a, answer.persist)) in_question.push_back(a);
+  if (in_question.empty()) return;
+  const double length = length_ahead();
+  const auto roundings = expansion_.rounding_of_rates(in_question, expansion_.order() - 1);
+  std::erase_if(answer.open, [&](const ContactAnswer::Opening& one) {
+    const auto found = std::find(in_question.begin(), in_question.end(), one.constraint);
+    if (found == in_question.end()) return false;
+    const std::vector<double>& left = roundings[static_cast<std::size_t>(found - in_question.begin())];
+    double covered = 0, power = length;
+    for (std::size_t j = 0; static_cast<int>(j) + 1 < one.order; ++j, power *= length)
+      covered += left[j] * power / static_cast<double>(j + 1);
+    const double opened = expansion_.constraint(one.constraint)[static_cast<std::size_t>(one.order)] * power;
+    if (opened > covered) return false;
+    answer.persist.push_back(one.constraint);
+    return true;
+  });
+}
+
 /// The switches of which that holds at a time of the next arc.
 void Motion::EventDriven::note_across(double tau) {
   for (std::size_t k = 0; k < expansion_.switches(); ++k)

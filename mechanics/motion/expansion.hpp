@@ -172,6 +172,8 @@ class Expansion {
   /// Up to here rounding may have made the coefficients of these arguments, of so many orders, after
   /// `expand`.
   std::vector<std::vector<double>> rounding_of_switches(const std::vector<Index>& which, int orders);
+  /// The same of the coefficients of df/dt.
+  std::vector<std::vector<double>> rounding_of_rates(const std::vector<Index>& which, int orders);
   /// The same of the argument itself, at a state.
   double rounding_of_argument(std::size_t k);
   /// Whether one of the arguments may jump, as at a pole, or have a kink, of which its series do not tell.
@@ -230,10 +232,32 @@ class Expansion {
     double along(const Vector& u) const { return u.cwiseAbs().dot(velocity); }
   };
   Magnitudes magnitudes(const std::vector<Index>& constraints, int k);
+  std::vector<std::vector<double>> rounding_of_series(const std::vector<expression::Slot>& which, int orders);
+  /// A constraint, s of df/dt at an order, and what that is the sum of.
+  struct Asked {
+    Index constraint;
+    double s, rate;
+  };
+  struct Slack {
+    double slack, left;  ///< what rounding may have made of it
+    double times;        ///< the gradient of the constraint over that of the one held
+  };
+  /// The slack of a beside b, which is held, at order k with v = x. Where their gradients are parallel but
+  /// for rounding it is the difference of what they ask for, times s_b - s_a: neither x nor what is constant
+  /// in the gradients rounds it. Nothing where they are not.
+  std::optional<Slack> slack_beside(const Asked& a, const Asked& b, const Vector& x, const Magnitudes& of,
+                                    int k);
+  /// Notes that a cannot hold beside b, which does.
+  void contradict(Index a, Index b, double times, ContactAnswer& answer) {
+    answer.excluding = {a, b};
+    weights_ = {1, -times};
+  }
   double next_coefficient(expression::Slot coordinate, int k) const;
   Magnitudes magnitudes_of_order(const std::vector<Index>& constraints, int k);
   /// What rounding makes of a coefficient of order k, as a part of its magnitude.
   double rounding(int k) const;
+  /// Without that of the state, which is one state for all.
+  double rounding_of_operations(int k) const;
   void give_velocity(int k, const Vector& v);
   void give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda);
   Vector missing_rate(const std::vector<Index>& constraints) const;

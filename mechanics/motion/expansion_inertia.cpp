@@ -110,4 +110,35 @@ bool Expansion::is_nearly_implied(Index a, std::vector<Index> constraints) const
   return turned.isZero(0) || inertia().norm(turned) * inertia().dual_norm(row(a)) * part_implied > 1;
 }
 
+std::optional<Expansion::Slack> Expansion::slack_beside(const Asked& a, const Asked& b, const Vector& x,
+                                                        const Magnitudes& of, int k) {
+  const auto &of_a = equations_.row[index(a.constraint)], &of_b = equations_.row[index(b.constraint)];
+  if (a.constraint == b.constraint || of_a.empty() ||
+      !std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                  [](const auto& one, const auto& other) { return one.first == other.first; }))
+    return std::nullopt;
+  const Vector u = row(a.constraint), base = row(b.constraint);
+  Index pivot = 0;
+  base.cwiseAbs().maxCoeff(&pivot);
+  if (base[pivot] == 0 || u[pivot] == 0) return std::nullopt;
+  const double times = u[pivot] / base[pivot];
+  Vector rounded = u - times * base;
+  const Vector part = rounded.cwiseAbs();
+  if (part.maxCoeff() > part_implied * std::abs(u[pivot])) return std::nullopt;
+  const double slack = rounded.dot(x) + times * b.s - a.s;
+  rounded = part;
+  const auto add = [&](const auto& entries, double by) {
+    for (const auto& [i, slot] : entries) {
+      if (equations_.tape.is_constant(equations_.program.node(slot))) continue;
+      rounded[i] += by * magnitude_.at(slot, 0);
+      if (i == pivot) rounded += u.cwiseAbs();
+    }
+  };
+  add(of_a, 1);
+  add(of_b, std::abs(times));
+  if (std::abs(times) != 1) rounded += u.cwiseAbs();
+  const double terms = std::abs(a.s) + a.rate + std::abs(times) * (std::abs(b.s) + b.rate);
+  return Slack{slack, rounding_of_operations(k) * (terms + of.along(rounded)), times};
+}
+
 }  // namespace mechanics::inline motions

@@ -232,3 +232,33 @@ TEST_CASE("a floor from which another one parts as slowly as rounding tells lets
   CHECK(motion.end().q[0] == doctest::Approx(2e-6).epsilon(1e-9));
   CHECK(motion.motion.record().steps < 50);
 }
+
+TEST_CASE("below a floor that holds, others that touch it to a high order at the start change nothing") {
+  struct Case {
+    std::vector<std::string> floors;  // the first one is above the others
+    const char *force, *weight;
+    double v;
+  };
+  const Case cases[] = {
+      {{"2*x^2 + 0.1*x^8", "2*x^2"}, "-t^2", "y", -1e-9},
+      {{"x^2 + 0.5*x^3", "x^2 + 0.5*x^3 - 0.5*x^6", "x^2 + 0.5*x^3 - 0.7*x^6"}, "sin(3*t)", "y", -1e-9},
+      {{"0.5*x + x^2 + 0.1*x^8", "0.5*x + x^2"}, "t", "9.81*y", 1e-9},
+      {{"0.5*x^3", "0.5*x^3 - x^2"}, "0", "9.81*y", 1e-9},
+      {{"0.5*x + 0.3*x^2 + x^4", "0.5*x + 0.3*x^2", "0.5*x + 0.3*x^2 + 0.01*x^5"}, "-0.3*x", "9.81*y", 0},
+      {{"-log(cos(x))", "log(1 + x^2/2)"}, "0.2*x", "9.81*y", -1e-3}};
+  for (const Case& one : cases) {
+    CAPTURE(one.floors[0]);
+    SystemText text{{"x", "y"}, "(x'^2+y'^2)/2", one.weight, {}, {}, {{"x", one.force}}, {}};
+    const double slope = one.floors[0].starts_with("0.5*x +") ? 0.5 : 0;
+    const mechanics::State start = state({0, 0}, {one.v, slope * one.v});
+    text.constraints = {{"a", "y >= " + one.floors[0]}};
+    const Followed alone = followed(text, start, 1.7);
+    for (std::size_t k = 1; k < one.floors.size(); ++k)
+      text.constraints.emplace_back("b" + std::to_string(k), "y >= " + one.floors[k]);
+    const Followed motion = followed(text, start, 1.7);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.end().q[0] == doctest::Approx(alone.end().q[0]).epsilon(1e-9));
+    CHECK(motion.end().v[0] == doctest::Approx(alone.end().v[0]).epsilon(1e-9));
+    CHECK(motion.motion.record().steps < 200);
+  }
+}
