@@ -33,10 +33,17 @@ bool tells(double told, double there, double rounding) {
 bool Motion::EventDriven::has_left_its_branch(std::size_t k, double tau) {
   const double there = expansion_.switch_argument(k)[0] * expansion_.branch(k);
   if (expansion_.branch(k) == 0 || std::isnan(there)) return false;
-  const double digits = half_the_digits * terms_of_argument(k, tau);
-  if (there < 0) return (digits > 0 || is_cut_) && -there > digits + expansion_.rounding_of_argument(k);
-  if (!(digits > 0)) return false;
+  if (watched_.size() < expansion_.switches()) return is_cut_ && -there > expansion_.rounding_of_argument(k);
   const Watched& one = watched_[watched_.size() - expansion_.switches() + k];
+  const double terms = half_the_digits * terms_of_argument(k, tau);
+  // Near a pole rounding makes terms beside which the first ones are nothing: such a series tells nothing.
+  double first = 0;
+  for (std::size_t j = std::min<std::size_t>(one.c.size(), 3); j-- > 0;)
+    first = first * tau + std::abs(one.c[j]);
+  const bool is_spoiled = terms > std::max(std::abs(there), first * std::pow(tau, one.zeros));
+  const double digits = is_spoiled ? 0 : terms;
+  if (there < 0) return (terms > 0 || is_cut_) && -there > digits + expansion_.rounding_of_argument(k);
+  if (!(terms > 0)) return false;
   const double told = std::pow(tau, one.zeros) * value_at(one.c, tau);
   // The rounding of the argument takes a look at all series: it is asked for only where it may matter.
   return !tells(told, there, digits) && !tells(told, there, digits + expansion_.rounding_of_argument(k));

@@ -209,3 +209,20 @@ TEST_CASE("a motion that comes to infinity is told as it was there, and not beyo
   CHECK(std::abs(told.end().q[0]) < 1);
   CHECK(told.end().v[0] < -1e3);
 }
+
+TEST_CASE("an angle that the arctangent wraps jumps at each pole of the tangent, and a branch with it") {
+  // x'' = 0.6 where 3x - 1 is within (0.7, pi/2) up to a multiple of pi, else 0.15: v²/2 is the work done.
+  const double pi = std::acos(-1.0), start = 0.20083633820444735, v = 0.3;
+  for (const double until : {2.0, 4.0, 6.0}) {
+    CAPTURE(until);
+    const Followed motion = followed(
+        {{"x"}, "x'^2/2", "", {}, {}, {{"x", "0.3*if(atan(tan(3*x - 1)) > 0.7, 1, -0.5) + 0.3"}}, {}},
+        state({start}, {v}), until);
+    REQUIRE(motion.motion.status() == MotionStatus::done);
+    const double x = motion.end().q[0], speed = motion.end().v[0];
+    double inside = 0;
+    for (int n = 0; n < 10; ++n)
+      inside += std::max(0.0, std::min(x, (1 + pi / 2 + n * pi) / 3) - (1.7 + n * pi) / 3);
+    CHECK(std::abs(speed * speed / 2 - v * v / 2 - 0.15 * (x - start) - 0.45 * inside) <= 1e-10);
+  }
+}
