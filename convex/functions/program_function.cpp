@@ -35,7 +35,7 @@ class ProgramNode : public FunctionNode {
       return {infinite, infinite};
     }
     Value value = sum_of_terms(found.value, std::abs(found.value));
-    if (std::isinf(found.error)) value.error = found.error;
+    value.error += found.error;
     return value;
   }
   Prox prox(const Vector& z, const Metric& W, const Look&) const override {

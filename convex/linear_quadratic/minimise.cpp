@@ -200,11 +200,22 @@ class ProximalPoint {
     const bool at_rest = move_ <= still * (scale + terms_norm_),
                stuck = gain > 0.5 && move_ <= accurate * scale;
     const bool slow = point_.defect_ratio > softness_step * last_ratio;
-    const bool stagnant = point_.defect_ratio <= stagnant_defect && point_.defect_ratio >= 0.5 * last_ratio;
+    const bool stagnant =
+        !goes_down() && point_.defect_ratio <= stagnant_defect && point_.defect_ratio >= 0.5 * last_ratio;
     idle_ = (at_rest || (stuck && softness_ <= least_)) && slow && motion_ratio <= still;
     if (idle_ || ((at_rest || stuck) && (point_.defect_ratio <= still || stagnant))) return true;
     if (slow) shrink();
     return frozen;
+  }
+
+  /// Without an x, whether a defect that stays is a small slope, down which rounds still go: those that hold
+  /// fast go a short way each.
+  bool goes_down() {
+    if (f_.n > 0) return false;
+    const double last = height_;
+    height_ = objective(f_, point_.xi);
+    const double rounding = unit_roundoff * f_.c.cwiseAbs().dot(point_.xi.cwiseAbs());
+    return softness_ > std::max(least_, least_softness) || last - height_ > rounding;
   }
 
   void shrink() {
@@ -281,7 +292,8 @@ class ProximalPoint {
   double softness_, least_;
   NearestPointProblem problem_;
   double z_norm_, move_ = 0;
-  double bounds_ = 0;  // the size of the variables that the rows ask for, when there is no x
+  double height_ = infinity;  ///< without an x, the objective of the last round
+  double bounds_ = 0;         // the size of the variables that the rows ask for, when there is no x
   double terms_norm_ =
       0;  // the terms of stationarity in the units of x: its rounding is relative to them too
   double round_scale_ = 0;

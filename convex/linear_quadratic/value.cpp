@@ -19,6 +19,9 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// Bounds are widened by so many roundings of their terms when a rounded point of the domain misses them.
 constexpr double widening = 64 * unit_roundoff;
 
+/// A slope is rounding within so much of its terms.
+constexpr double rounding_of_slope = 4 * unit_roundoff;
+
 /// A value is given when its duality gap is below this part of its terms.
 constexpr double accurate_value = 1e-11;
 
@@ -93,14 +96,19 @@ struct Gap {
   double gap = 0, terms = 0;
 };
 Gap value_gap(const LinearQuadratic& f, const ProgramPoint& point) {
-  const Vector defect = stationarity_defect(f, Metric::identity(0), Vector(0), point.xi, point.lambda);
+  const Vector defect =
+      stationarity_defect(f, Metric::identity(0), Vector(0), point.xi, point.lambda).cwiseAbs();
+  const Vector terms_of_defect = defect_terms(f, point.xi, point.lambda);
+  const double size = point.xi.cwiseAbs().maxCoeff();
+  // Down a slope that is left the minimum may lie as far as ξ is large, also where an entry is 0.
+  const double slopes =
+      (defect.array() > rounding_of_slope * terms_of_defect.array()).select(defect, 0).sum();
   const double gap =
-      std::abs(complementarity(f, point.xi, point.lambda)) + defect.cwiseAbs().dot(point.xi.cwiseAbs());
-  const double size = point.xi.cwiseAbs().maxCoeff(),
-               bend = f.H.coeffs().size() > 0 ? f.H.coeffs().abs().maxCoeff() : 0;
+      std::abs(complementarity(f, point.xi, point.lambda)) + defect.dot(point.xi.cwiseAbs()) + slopes * point.xi.lpNorm<1>();
+  const double bend = f.H.coeffs().size() > 0 ? f.H.coeffs().abs().maxCoeff() : 0;
   const double largest = (f.c.cwiseAbs().maxCoeff() + bend * size) * size;
-  const double terms = largest + defect_terms(f, point.xi, point.lambda).dot(point.xi.cwiseAbs()) +
-                       f.h.cwiseAbs().dot(point.lambda.cwiseAbs());
+  const double terms =
+      largest + terms_of_defect.dot(point.xi.cwiseAbs()) + f.h.cwiseAbs().dot(point.lambda.cwiseAbs());
   return {gap, terms};
 }
 
