@@ -1,6 +1,7 @@
 #include "convex/composite/multiplier_step.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "convex/composite/newton_system.hpp"
 #include "convex/gamma0/work_limit.hpp"
@@ -16,8 +17,8 @@ constexpr double floor_roundings = 16;
 /// The inner problem at a ξ.
 struct Inner {
   Vector xi, t, u, gradient, r;
-  double value = 0;
-  double size = 0;  ///< the sum of the absolute values of the parts of `value`
+  double value = 0;  ///< not a number where a term has no prox in doubles
+  double size = 0;   ///< the sum of the absolute values of the parts of `value`
 };
 
 Inner inner_at(const SaddleProblem& problem, const SaddlePoint& centre, const Vector& D, const Vector& ridge,
@@ -27,6 +28,7 @@ Inner inner_at(const SaddleProblem& problem, const SaddlePoint& centre, const Ve
   at.t = image + centre.y.cwiseQuotient(D);
   at.u = prox_of_terms(problem, at.t, D);
   at.r = image - at.u;
+  if (!at.u.allFinite()) at.value = std::numeric_limits<double>::quiet_NaN();
   const Vector y = D.cwiseProduct(at.t - at.u);
   const Vector x = xi.head(problem.n), w_step = xi.tail(problem.k) - centre.xi.tail(problem.k);
   const Vector covector = metric_difference(problem.W, x, problem.z);
@@ -47,7 +49,7 @@ Inner inner_at(const SaddleProblem& problem, const SaddlePoint& centre, const Ve
   add(0.5 * ridge.dot(w_step.cwiseAbs2()));
   add(0.5 * y.dot(at.t - at.u));
   for (const SaddleTerm& term : problem.terms)
-    add(term.scale * term.f->value(at.u.segment(term.first, term.rows)));
+    if (!std::isnan(at.value)) add(term.scale * term.f->value(at.u.segment(term.first, term.rows)));
   at.xi = std::move(xi);
   return at;
 }
@@ -60,6 +62,7 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
   Inner at = inner_at(problem, centre, D, ridge, centre.xi);
   const Vector no_r = Vector::Zero(problem.m);
   for (; result.newton_steps < newton_limit && !WorkLimit::passed(); ++result.newton_steps) {
+    if (std::isnan(at.value)) break;
     const NewtonSystem system(problem, at.t, D, 1, ridge);
     if (!system.usable()) break;
     const Vector direction = system.step(at.gradient, no_r).dxi;

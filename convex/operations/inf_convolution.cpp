@@ -91,7 +91,11 @@ class InfConvolution : public Operation {
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto forms = programs(std::vector{f_, g_}, n);
     if (!forms) return std::nullopt;
-    return linear_quadratic::inf_convolution((*forms)[0], (*forms)[1]);
+    try {
+      return linear_quadratic::inf_convolution((*forms)[0], (*forms)[1]);
+    } catch (const InvalidInput&) {  // numbers beyond doubles: no program
+      return std::nullopt;
+    }
   }
   std::optional<GraphForm> graph(Index n, double slope) const override {
     const auto f = f_.node().graph(n, slope), g = g_.node().graph(n, slope);
