@@ -273,3 +273,10 @@ TEST_CASE("the gradient of an envelope is right where a point is no longer told 
     CHECK(answer["least"][1].get<double>() == doctest::Approx(0.8).epsilon(1e-13));
   }
 }
+
+TEST_CASE("a certified prox whose equations depend on each other is answered, proved or not") {
+  const Json answer = json_of({"prox", "perspective(squared_distance(affine([[0,0]],[0]),0.5))", "--at",
+                               "[0.625,-3,1]", "--certify", "--json"});
+  CHECK(answer["status"] != "error");
+  CHECK(answer["x"] == Json::array({0.625, -3, 1}));
+}

@@ -31,7 +31,7 @@ bool has_factor(Matrix L) {
 
 double least_eigenvalue_below(const Matrix& W) {
   const Index n = W.rows();
-  if (n == 0 || !is_ordinary(W)) return 0;
+  if (n == 0 || !is_ordinary(W) || !has_factor(W)) return 0;
   const double trace = above(W.diagonal().cwiseAbs().sum());
   // Each entry of the exact matrix may be off its double by half a unit, and the shifted diagonal by another.
   const double lost = above(8 * gamma(n + 2) * trace);
