@@ -19,6 +19,16 @@ namespace {
 
 bool equal(const Vector& d) { return d.maxCoeff() == d.minCoeff(); }
 
+bool takes_thin_jacobian(const Vector& d) { return d.size() >= Jacobian::least_thin && equal(d); }
+
+/// diag(s²) - s sᵀ/(s·s), the projection on {x : s·x = 0, x_i = 0 where s_i = 0}: to the face around a point
+/// of a polytope. s: signs.
+Jacobian jacobian_to_face(const Vector& s) {
+  const double open = s.squaredNorm();
+  if (!(open > 0)) return Jacobian(Vector(Vector::Zero(s.size())));
+  return {Vector(s.cwiseAbs2()), s, Matrix::Constant(1, 1, -1 / open)};
+}
+
 /// A bounded polytope with kernels for every diagonal metric.
 class Polytope : public ConvexSet {
  public:
@@ -39,7 +49,9 @@ class Ball1 : public Polytope {
     return equal(d) ? prox_formulas::proj_ball1(z, radius_) : prox_formulas::proj_ball1(z, radius_, d);
   }
   Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
-    return prox_formulas::proj_ball1_jacobian(z, radius_, d);
+    if (!takes_thin_jacobian(d)) return prox_formulas::proj_ball1_jacobian(z, radius_, d);
+    const Vector x = project(z, d);
+    return x == z ? Jacobian::identity(z.size()) : jacobian_to_face(x.cwiseSign());
   }
   double support(const Vector& v) const override { return radius_ * v.lpNorm<Eigen::Infinity>(); }
   std::optional<Vector> maximiser(const Vector& v) const override {
@@ -75,7 +87,8 @@ class Simplex : public Polytope {
     return equal(d) ? prox_formulas::proj_simplex(z, total_) : prox_formulas::proj_simplex(z, total_, d);
   }
   Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
-    return prox_formulas::proj_simplex_jacobian(z, total_, d);
+    if (!takes_thin_jacobian(d)) return prox_formulas::proj_simplex_jacobian(z, total_, d);
+    return jacobian_to_face(project(z, d).cwiseSign());
   }
   double support(const Vector& v) const override { return total_ * v.maxCoeff(); }
   std::optional<Vector> maximiser(const Vector& v) const override {
@@ -125,7 +138,9 @@ class CappedSimplex : public Polytope {
                     : prox_formulas::proj_capped_simplex(z, cap_, total_, d);
   }
   Jacobian project_jacobian(const Vector& z, const Vector& d) const override {
-    return prox_formulas::proj_capped_simplex_jacobian(z, cap_, total_, d);
+    if (!takes_thin_jacobian(d)) return prox_formulas::proj_capped_simplex_jacobian(z, cap_, total_, d);
+    const Vector x = project(z, d);
+    return jacobian_to_face((x.array() > 0 && x.array() < cap_).cast<double>());
   }
   double support(const Vector& v) const override { return maximiser(v)->dot(v); }
   Value support_value(const Vector& v) const override {

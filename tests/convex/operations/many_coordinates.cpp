@@ -79,3 +79,36 @@ TEST_CASE("in hundreds of coordinates an epigraph has the nearest point that its
   check_point("sum(indicator(epigraph(hinge())), indicator(ball2(1000)))", z,
               at(falling_root(above, 0, 1e3)));
 }
+
+TEST_CASE(
+    "in hundreds of coordinates a diamond, a ball and a half-space have the nearest point whose normals are "
+    "told") {
+  const Index n = 250;
+  Vector a(n), x(n), v(n);
+  for (Index i = 0; i < n; ++i) {
+    a[i] = 0.5 * static_cast<double>((3 * i + i / 5) % 7) - 1;
+    x[i] = i < 16 ? (i % 2 ? 0.5 : -0.5) : 0;
+    const double of_diamond = x[i] != 0 ? std::copysign(1.0, x[i]) : 0.25 * static_cast<double>(i % 9 - 4);
+    v[i] = 3 * of_diamond + 2 * a[i];
+  }
+  std::string row;
+  for (Index i = 0; i < n; ++i) row += (i ? "," : "") + std::to_string(a[i]);
+  // |x|₂ = 2: the ball takes no part.
+  check_point("indicator(intersection(ball2(5), ball1(8), halfspace([" + row + "]," +
+                  std::to_string(a.dot(x)) + ")))",
+              x + v, x);
+}
+
+TEST_CASE("in hundreds of coordinates a largest entry and a length share a point as their slopes tell") {
+  const Index n = 250;
+  Vector centre(n), x(n), v(n);
+  for (Index i = 0; i < n; ++i) {
+    centre[i] = 0.5 * static_cast<double>(7 * i % 5) - 1;
+    v[i] = static_cast<double>(i % 4);
+    x[i] = centre[i] + (v[i] > 0 ? 5 : 5 - static_cast<double>(i % 3));
+  }
+  v /= v.sum();  // |v|₁ = 1, and |v|₂ < 1: the norm stays at its centre
+  std::string by;
+  for (Index i = 0; i < n; ++i) by += (i ? "," : "") + std::to_string(centre[i]);
+  check_point("inf_convolution(norm_inf(), translate(norm2(), [" + by + "]))", x + v, x);
+}
