@@ -86,6 +86,9 @@ struct LogSumExp final : Atom {
     double level = 0;
     Vector slope;
     const Vector a = level_parts(z, d, level, slope), weight = softmax(a).cwiseProduct(slope);
+    // In a multiple of the identity 1 - slope is weight/d.
+    if (Jacobian::least_thin <= z.size() && d.maxCoeff() == d.minCoeff())
+      return {slope, weight, Matrix::Constant(1, 1, 1 / (d[0] * weight.sum()))};
     Matrix J = (Vector::Ones(z.size()) - slope) * (weight / weight.sum()).transpose();
     J += slope.asDiagonal();
     return J;
@@ -181,6 +184,8 @@ struct EntropyOnSimplex final : Atom {
   Jacobian prox_jacobian(const Vector& z, const Vector& d) const override {
     Vector slope;
     parts(z, d, slope);
+    if (Jacobian::least_thin <= z.size() && d.maxCoeff() == d.minCoeff())
+      return {slope, slope, Matrix::Constant(1, 1, -1 / slope.sum())};
     const Vector rate = slope.cwiseQuotient(d);
     Matrix J = -rate * slope.transpose() / rate.sum();
     J += slope.asDiagonal();

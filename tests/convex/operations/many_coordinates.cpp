@@ -6,6 +6,7 @@
 #include <random>
 
 #include "convex/functions/decomposition.hpp"
+#include "convex/gamma0/call.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 /// Functions of some hundred coordinates with parts of which none is separable, whose points one number
@@ -111,4 +112,22 @@ TEST_CASE("in hundreds of coordinates a largest entry and a length share a point
   std::string by;
   for (Index i = 0; i < n; ++i) by += (i ? "," : "") + std::to_string(centre[i]);
   check_point("inf_convolution(norm_inf(), translate(norm2(), [" + by + "]))", x + v, x);
+}
+
+TEST_CASE(
+    "in hundreds of coordinates a smooth maximum beside a norm and a ball is split where its slopes tell") {
+  const Index n = 130;
+  Vector centre(n), x(n), v(n);
+  for (Index i = 0; i < n; ++i) {
+    centre[i] = 0.125 * static_cast<double>(7 * i % 5) - 0.25;
+    x[i] = i % 3 == 0 ? centre[i] : 0.125 * static_cast<double>(i * 11 % 13 - 6);
+    const double of_norm = x[i] > centre[i] ? 1 : x[i] < centre[i] ? -1 : static_cast<double>(i % 5 - 2) / 3;
+    v[i] = 0.125 * of_norm + 0.5 * x[i];
+  }
+  v += x.array().exp().matrix() / x.array().exp().sum();
+  std::string by;
+  for (Index i = 0; i < n; ++i) by += (i ? "," : "") + std::to_string(centre[i]);
+  check_point("sum(log_sum_exp(), translate(norm1(0.125), [" + by + "]), indicator(ball2(" +
+                  convex::to_text(x.norm()) + ")))",
+              x + v, x);
 }
