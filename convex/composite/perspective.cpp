@@ -1,7 +1,6 @@
 #include "convex/composite/perspective.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "convex/composite/conjugate_atom.hpp"
 #include "convex/composite/epigraph.hpp"
@@ -13,6 +12,8 @@ namespace convex::inline composite {
 namespace {
 
 constexpr double vanishing_root = 1e-24;  ///< a root of this part of the point's size is 0
+/// Nor is one below this, over which numbers of the data would be beyond doubles.
+constexpr double least_root = 0x1p-900;
 /// Difference quotients at these parts of |x| that agree to `agreeing` have come to their limit.
 constexpr double coarse = 1e-9, fine = 1e-12, agreeing = 1e-6;
 
@@ -103,9 +104,7 @@ class PerspectiveAtom final : public Atom {
  private:
   Vector at(const Vector& q, double mu) const { return f_->prox_diagonal(q / mu, Vector::Constant(n_, mu)); }
 
-  static double smallest(double size) {
-    return std::max(vanishing_root * size, std::numeric_limits<double>::min());
-  }
+  static double smallest(double size) { return std::max(vanishing_root * size, least_root); }
 
   /// The root mu; 0 where the prox is 0.
   double root(const Vector& z, double d) const {

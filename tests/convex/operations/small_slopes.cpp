@@ -56,3 +56,17 @@ TEST_CASE("where a term has no prox in doubles on the way the steps go on withou
   REQUIRE(split.status == Status::solved);
   CHECK((split.x.x - Vector{{1, 0, 0, 0}}).norm() <= 1e-9);
 }
+
+TEST_CASE("a root of a perspective that is all but 0 does not leave the range of doubles") {
+  const auto f = samples::function(
+      "indicator(intersection(polyhedron([[-3,1,-2],[2,1,0],[-1,1,-3]],[-12.5,7.5,0.5]),epigraph(sum("
+      "translate("
+      "inf_convolution(indicator(simplex(8)),tilt(inverse_power(1),[1.0625,1.0625])),[-7,-7.5]),constant(-12)"
+      "))))",
+      3);
+  const Metric W = Metric::dense(Matrix{{4, 8, -4}, {8, 16.25, -8.25}, {-4, -8.25, 5.25}});
+  const Vector z{{4.999921798706055, -3.4999608993530273, -2.9999990463256836}};
+  const auto split = convex::decompose(f, z, W);
+  REQUIRE(split.status == Status::solved);
+  CHECK((split.x.x - Vector{{5, -3.5, -3}}).norm() <= 1e-9);
+}
