@@ -103,8 +103,8 @@ Gap value_gap(const LinearQuadratic& f, const ProgramPoint& point) {
   // Down a slope that is left the minimum may lie as far as ξ is large, also where an entry is 0.
   const double slopes =
       (defect.array() > rounding_of_slope * terms_of_defect.array()).select(defect, 0).sum();
-  const double gap =
-      std::abs(complementarity(f, point.xi, point.lambda)) + defect.dot(point.xi.cwiseAbs()) + slopes * point.xi.lpNorm<1>();
+  const double gap = std::abs(complementarity(f, point.xi, point.lambda)) + defect.dot(point.xi.cwiseAbs()) +
+                     slopes * point.xi.lpNorm<1>();
   const double bend = f.H.coeffs().size() > 0 ? f.H.coeffs().abs().maxCoeff() : 0;
   const double largest = (f.c.cwiseAbs().maxCoeff() + bend * size) * size;
   const double terms =

@@ -133,7 +133,8 @@ class InfConvolution : public Operation {
     const Value by_f = sum_of(f_.evaluate(in_f), value_near(g_, difference(x, in_f), size));
     return by_f.value > by_g.value ? by_f : by_g;
   }
-  /// The nearest point of the domain, where a formula gives it: the end of an interval, if f has a value there.
+  /// The nearest point of the domain, where a formula gives it: the end of an interval, if f has a value
+  /// there.
   static Vector nearest_member(const Function& f, const Vector& x, double size) {
     const Facts facts = f.facts();
     if (facts.finite || !(facts.indicator || facts.separable)) return x;
