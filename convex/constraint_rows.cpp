@@ -78,6 +78,7 @@ double ConstraintRows::absolute_dot(Index a, const Vector& weight) const {
 }
 
 Vector ConstraintRows::lengths(const Vector& weight) const {
+  if (count() == 0) return Vector(0);  // those that there are none of may have no columns
   if (is_sparse()) return (sparse().cwiseAbs2() * weight).cwiseSqrt();
   return (dense().cwiseAbs2() * weight).cwiseSqrt();
 }
