@@ -5,14 +5,9 @@
 
 #include "convex/dense/compiled.hpp"
 #include "convex/dense/dense_kernels.hpp"
+#include "convex/dense/registers.hpp"
 
 namespace convex::inline dense {
-
-template <int W>
-struct Register {
-  using Doubles [[gnu::vector_size(W * sizeof(double))]] = double;
-  using Wholes [[gnu::vector_size(W * sizeof(double))]] = long long;
-};
 
 /// Eight doubles in registers of W, and what is done with them entry by entry, so that results do not depend
 /// on W. Fused: whether the machine has a fused multiply-add, by which the rounding of a product is found; it
@@ -194,12 +189,10 @@ struct Packs {
       using Two [[gnu::vector_size(16)]] = double;
       Four four;
       if constexpr (W == 8)
-        four = f(Four(__builtin_shufflevector(x.part[0], x.part[0], 0, 1, 2, 3)),
-                 Four(__builtin_shufflevector(x.part[0], x.part[0], 4, 5, 6, 7)));
+        four = f(half_of<Four, 0>(x.part[0]), half_of<Four, 4>(x.part[0]));
       else
         four = f(x.part[0], x.part[1]);
-      const Two two =
-          f(Two(__builtin_shufflevector(four, four, 0, 1)), Two(__builtin_shufflevector(four, four, 2, 3)));
+      const Two two = f(half_of<Two, 0>(four), half_of<Two, 2>(four));
       return f(two[0], two[1]);
     }
   }

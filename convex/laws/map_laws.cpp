@@ -69,10 +69,12 @@ class MapSearch {
   /// Each kink, both sides of it at several distances, and the middle between two.
   static void add_around(const std::vector<Fraction>& kinks, std::vector<ExactVector>& points) {
     for (std::size_t k = 0; k < kinks.size(); ++k) {
-      points.push_back(exact_vector({kinks[k]}));
+      points.push_back(exact_vector(std::vector<Fraction>{kinks[k]}));
       for (const double away : {1.0, 0x1p-10, 0x1p-20, 0x1p-40})
-        for (const double side : {-away, away}) points.push_back(exact_vector({kinks[k] + fraction(side)}));
-      if (k > 0) points.push_back(exact_vector({(kinks[k - 1] + kinks[k]) * Fraction{1, 2}}));
+        for (const double side : {-away, away})
+          points.push_back(exact_vector(std::vector<Fraction>{kinks[k] + fraction(side)}));
+      if (k > 0)
+        points.push_back(exact_vector(std::vector<Fraction>{(kinks[k - 1] + kinks[k]) * Fraction{1, 2}}));
     }
   }
 

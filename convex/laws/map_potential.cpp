@@ -13,7 +13,7 @@ using symbolic::AffinePiece;
 
 /// T at a point of the line, when it is a fraction there.
 std::optional<Fraction> value_on_line(const Map& T, const Fraction& z) {
-  const auto image = T.at(exact_vector({z}));
+  const auto image = T.at(exact_vector(std::vector<Fraction>{z}));
   if (!image || image->radius != 0) return std::nullopt;
   return entry(image->value, 0);
 }

@@ -1,6 +1,7 @@
 // A shared module, loaded when balls are asked for and not before: what Arb links to (FLINT, MPFR) costs time
 // at the start of a process.
 #include <arb.h>
+#include <flint/fmpq.h>
 #include <gmp.h>
 
 #include <cmath>
