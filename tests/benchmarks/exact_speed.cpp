@@ -10,6 +10,7 @@
 #include <string>
 #ifdef MOREAU_HAS_FLINT
 #include <flint/fmpq_mat.h>
+#include <flint/fmpz.h>
 #include <flint/fmpz_mat.h>
 #include <flint/fmpz_vec.h>
 #endif
