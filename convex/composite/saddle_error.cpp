@@ -56,6 +56,27 @@ Rounding rounding_of(const SaddleProblem& problem, const SaddlePoint& point) {
   return rounding;
 }
 
+/// The residual that rounding may leave of a point, as `SaddlePoint::residual` measures it.
+double residual_of(const SaddleProblem& problem, const Rounding& rounding) {
+  const double x_part = problem.W.dual_norm(rounding.rho.head(problem.n));
+  const double w_part = rounding.rho.tail(problem.k).cwiseQuotient(problem.R.cwiseSqrt()).norm();
+  const double r_part = problem.D.cwiseSqrt().cwiseProduct(rounding.r).norm();
+  return std::hypot(x_part, w_part, r_part);
+}
+
+/// Does Newton's step from a point come to rounding? Only then is its length the distance to the solution: on
+/// the pieces of a point from which no step was taken yet, or after which the steps were cut short, it may be
+/// 0 however far that is.
+bool leads_to_rounding(const SaddleProblem& problem, const SaddlePoint& point, const Rounding& rounding) {
+  constexpr double roundings = 64;
+  const NewtonSystem system(problem, point.t, point.D, polish_theta, polish_ridge * problem.R);
+  if (!system.usable()) return false;
+  const NewtonStep step = system.step(point.rho, point.r);
+  const SaddlePoint next = saddle_point(problem, point.xi + step.dxi, point.t + step.dt, point.D);
+  return next.residual <=
+         std::max(settled * solution_size(problem, next), roundings * residual_of(problem, rounding));
+}
+
 /// What the pieces that the point is on cannot mend of a residual is rounding, of its terms or of x and z, or
 /// a small part of it; else the point is on the wrong pieces, and a step within them says nothing of its
 /// distance. All are in the units of `scale`, the roots of D or 1/R; `size` is that of x and z.
@@ -142,6 +163,7 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point,
       moves.dw = moves.dw.cwiseMax(sharp.dw);
     }
   }
+  if (!at_rounding) moves.known = moves.known && leads_to_rounding(problem, point, rounding);
   const auto& [dx, dy, dw, known] = moves;
   const double factor = at_rounding ? safety : far_safety;
   const double product = factor * (dy.dot(point.r.cwiseAbs() + rounding.r) +

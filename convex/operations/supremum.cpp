@@ -18,8 +18,7 @@ namespace convex::inline operations {
 namespace {
 
 constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+1) = t_k^power, for |v| <= 1
-constexpr int step_limit = 32;
-constexpr int most_missed = 3;  ///< proxes that do not come out before the end
+constexpr int step_limit = 32, most_missed = 3;  ///< missed: proxes that do not come out before the end
 
 /// t_k is at least this part of |v|/|x_k|: the prox of a point is right relative to the point. Where x_k has
 /// crept for so many steps that is worth less than longer ones.
@@ -33,7 +32,8 @@ constexpr double settled = 1e-12, small = 1e-3;
 /// 1/t grows by `power`; on the way to a maximum far away the increases grow for some steps only.
 constexpr double growing = 1.3;
 constexpr int growth_steps = 8;
-constexpr Index most_axes = 64;  ///< beyond, a look along each costs more than the search
+/// Beyond, a look along each costs more than the search, and so does one between each two.
+constexpr Index most_axes = 64, few_axes = 8;
 
 /// So much farther out than it began.
 constexpr double farther = 1e12;
@@ -107,17 +107,26 @@ bool recedes_far_out(const Function& f, const Vector& v) {
   return false;
 }
 
-/// Is v·x - f(x) more than `bound` beside x, along an axis, or not known there?
+/// The axes, and between each two of them where they are few: a domain may be thin along the axes.
+std::vector<Vector> directions_beside(Index n) {
+  std::vector<Vector> found;
+  for (Index i = 0; i < n; ++i) {
+    found.push_back(Vector::Unit(n, i));
+    for (Index j = 0; j < i && n <= few_axes; ++j)
+      for (const double sign : {1.0, -1.0}) found.push_back(Vector::Unit(n, i) + sign * Vector::Unit(n, j));
+  }
+  return found;
+}
+
+/// Is v·x - f(x) more than `bound` beside x, or not known there?
 bool is_surpassed(const Function& f, const Vector& v, const Vector& x, double bound) {
-  const Index n = v.size();
-  if (n > most_axes) return false;
-  for (const double part : {1e-6, 1e-3, 1.0})
-    for (const double step : {part * std::max(1.0, x.norm()), -part * std::max(1.0, x.norm())})
-      for (Index i = 0; i < n; ++i) {
-        const Vector beside = x + step * Vector::Unit(n, i);
-        const Value value = f.evaluate(beside);
-        if (!std::isfinite(value.error) || v.dot(beside) - value.value - value.error > bound) return true;
-      }
+  if (v.size() > most_axes) return false;
+  for (const Vector& direction : directions_beside(v.size()))
+    for (const double part : {1e-6, -1e-6, 1e-3, -1e-3, 1.0, -1.0}) {
+      const Vector beside = x + part * std::max(1.0, x.norm()) * direction;
+      const Value value = f.evaluate(beside);
+      if (!std::isfinite(value.error) || v.dot(beside) - value.value - value.error > bound) return true;
+    }
   return false;
 }
 
@@ -232,6 +241,7 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
     if (!std::isfinite(t)) t = first_step * unit;
   }
   // Proxes cut short, or that cannot get as far as the maximiser, stand still as if the values had settled.
+  if (missed > most_missed) best.error = infinity;
   if (line && line->value.value > best.value + best.error) best = line->value;
   // That proxes stand still is what they say of each other; the values beside the point know nothing of them.
   else if (x_of_best.size() > 0 && is_surpassed(f, v, x_of_best, best.value + 4 * best.error))
@@ -250,6 +260,20 @@ bool grows_without_end(const Function& f, const Vector& v) {
 }
 
 namespace {
+
+/// `found` with what v·x - f(x) at the program's own maximiser x leaves open.
+Value between_bounds(const Value& found, const std::optional<Vector>& x, const Function& f, const Vector& v) {
+  if (!std::isfinite(found.value)) return found;
+  const OneAtATime question(OneAtATime::Kind::lower_bound);
+  if (!question.first() || !x || x->size() != v.size() || !x->allFinite()) return found;
+  const Value at = f.evaluate(*x);
+  if (!std::isfinite(at.value)) return found;
+  const double below = v.dot(*x) - at.value;
+  const double rounding =
+      at.error + roundings * unit_roundoff * (v.cwiseAbs().dot(x->cwiseAbs()) + std::abs(at.value));
+  const double apart = std::abs(found.value - below);
+  return {found.value, apart <= rounding ? found.error : std::max(found.error, apart)};
+}
 
 /// Where v is a slope of f of one entry, between the doubles at whose slopes the order to v changes.
 std::optional<double> attained_at(const Function& f, double v, const LineSupremum& found) {
@@ -277,24 +301,6 @@ std::optional<Vector> maximiser(const Function& f, const Vector& v) {
   const auto x = attained_at(f, v[0], *found);
   return x ? std::optional(Vector(Vector::Constant(1, *x))) : std::nullopt;
 }
-
-namespace {
-
-/// `found` with what v·x - f(x) at the program's own maximiser x leaves open.
-Value between_bounds(const Value& found, const std::optional<Vector>& x, const Function& f, const Vector& v) {
-  if (!std::isfinite(found.value)) return found;
-  const OneAtATime question(OneAtATime::Kind::lower_bound);
-  if (!question.first() || !x || x->size() != v.size() || !x->allFinite()) return found;
-  const Value at = f.evaluate(*x);
-  if (!std::isfinite(at.value)) return found;
-  const double below = v.dot(*x) - at.value;
-  const double rounding =
-      at.error + roundings * unit_roundoff * (v.cwiseAbs().dot(x->cwiseAbs()) + std::abs(at.value));
-  const double apart = std::abs(found.value - below);
-  return {found.value, apart <= rounding ? found.error : std::max(found.error, apart)};
-}
-
-}  // namespace
 
 bool is_of_rounding(const Value& value) {
   constexpr double few = 64;

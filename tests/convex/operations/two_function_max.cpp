@@ -11,9 +11,11 @@
 #include "convex/operations/operations.hpp"
 #include "tests/convex/operations/samples.hpp"
 
+using convex::Decomposition;
 using convex::Function;
 using convex::Metric;
 using convex::Prox;
+using convex::Status;
 using convex::Value;
 using convex::Vector;
 
