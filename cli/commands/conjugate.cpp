@@ -93,11 +93,15 @@ struct ConjugateAnswer {
   }
 };
 
+/// The same as written.
+convex::SplitQuestion written_question(const ConjugateQuestion& question, const FunctionOptions& options) {
+  return {question.call, written_numbers(*options.at),
+          options.metric ? parse_exact_metric(*options.metric) : convex::exact_gram(question.W)};
+}
+
 /// The value proved; with method exact the printed one is the fraction's nearest double.
 void prove_value(const ConjugateQuestion& question, const FunctionOptions& options, ConjugateAnswer& answer) {
-  answer.proof = convex::proved_conjugate(
-      {question.call, written_numbers(*options.at),
-       options.metric ? parse_exact_metric(*options.metric) : convex::exact_gram(question.W)});
+  answer.proof = convex::proved_conjugate(written_question(question, options));
   const convex::ProvedValue& proof = *answer.proof;
   if (in_fractions(options)) {
     if (proof.level != convex::ProofLevel::exact)
@@ -178,7 +182,8 @@ Exit tell_conjugate(const FunctionOptions& options) {
     const ConjugateQuestion question = read_question(options, source);
     const convex::Function g = question.f.conjugate(question.W);
     ConjugateAnswer answer{g, domain_text(g, question.W.dimension()), std::nullopt};
-    if (question.y) answer.value = question.f.conjugate(question.W).evaluate(*question.y);
+    if (question.y)
+      answer.value = convex::decided_conjugate(written_question(question, options), g, *question.y);
     if (options.certify || in_fractions(options)) prove_value(question, options, answer);
     answer.status = status_of(answer.value, options);
     if (options.json)

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
+#include "convex/nearest_point/solution.hpp"
 #include "convex/proved_prox/entry_formulas.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
@@ -73,6 +75,34 @@ ProvedValue proved_conjugate(const SplitQuestion& question) {
   made.level = ProofLevel::enclosure;
   made.interval = outwards(dot(found.pair->x, v) - found.pair->f_x.high, found.pair->f_v.high);
   return made;
+}
+
+namespace {
+
+/// The value of a program at x, rounded, +inf where it has none; nothing where fractions would take long.
+std::optional<double> quick_value(const ExactProgram& f, const Fractions& x) {
+  constexpr double part_of_operations = 0.01;  // some hundredths of a second
+  if (!(pair_operations(f, identity_gram(x.size())) <= part_of_operations * most_word_operations))
+    return std::nullopt;
+  const ExactValue found = exact_value(f, x);
+  return found.end == ProgramEnd::minimum ? nearest_double(found.value) : INFINITY;
+}
+
+}  // namespace
+
+Value decided_conjugate(const SplitQuestion& written, const Function& g, const Vector& y) {
+  const Value found = g.evaluate(y);
+  const auto program = exact_program(written.f, written.W);
+  const auto of_roundings = exact_program(g.call(), identity_gram(written.z.size()));
+  if (!program || !of_roundings) return found;
+  const auto value = quick_value(exact_programs::conjugate(*program), multiply(written.W, written.z)),
+             beside = quick_value(*of_roundings, fractions(y));
+  if (!value || !beside) return found;
+  if (std::isinf(*value) && std::isinf(*beside))
+    return std::isfinite(found.value) ? found : Value{INFINITY, 0};
+  const double told = std::isfinite(*value) ? *value : *beside;
+  const double other = std::isfinite(*value) && std::isfinite(*beside) ? *beside : found.value;
+  return {told, unit_roundoff * std::abs(told) + (std::isfinite(other) ? std::abs(told - other) : 0)};
 }
 
 }  // namespace convex::inline proved_prox

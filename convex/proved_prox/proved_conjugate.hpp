@@ -21,4 +21,11 @@ struct ProvedValue {
 /// where a pair with the covector Wy itself is found.
 ProvedValue proved_conjugate(const SplitQuestion& question);
 
+/// g(y) as it is told: in fractions where f is piecewise linear-quadratic and they take no longer than
+/// doubles may. Slopes and rows that agree but for roundings may have the supremum anywhere along what
+/// doubles take for nothing, as that of 4x - max(4x, 3.9999999999999964x + 1) at 1e15. The numbers are those
+/// written; what their roundings, of which the functions are made, would make of the value is its error. A y
+/// that a rounding puts outside the domain keeps the value beside it.
+Value decided_conjugate(const SplitQuestion& written, const Function& g, const Vector& y);
+
 }  // namespace convex::inline proved_prox
