@@ -174,12 +174,16 @@ std::optional<LineSupremum> supremum_of(const LineValues& f, const std::optional
   const auto lower_bound = [&] {
     return LineSupremum{line.best().x, {line.best().value - line.best().error, infinity}};
   };
-  for (const bool right : {false, true})
+  for (const bool right : {false, true}) {
+    Rank most = largest_step;
     for (Rank step = first_rank_step; !line.falls(right) && !(line.is_at_last(right) && line.ends(right));
-         step = std::min(growth * step, largest_step)) {
+         step = std::min(growth * step, most)) {
       if (line.is_at_last(right) || WorkLimit::passed()) return lower_bound();
-      if (!line.look_at(line.beyond(right, step))) return lower_bound();
+      // What is not known far out, as e^x beyond doubles, may be nearer.
+      for (; !line.look_at(line.beyond(right, step)); most = step /= growth)
+        if (step <= first_rank_step) return lower_bound();
     }
+  }
   // A chord through values within rounding of each other rises by both errors, and more where drawn on.
   const double rounding = 8;
   constexpr double smallest = std::numeric_limits<double>::min();  // below, doubles lose their digits

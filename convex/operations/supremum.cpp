@@ -242,7 +242,7 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
   }
   // Proxes cut short, or that cannot get as far as the maximiser, stand still as if the values had settled.
   if (missed > most_missed) best.error = infinity;
-  if (line && line->value.value > best.value + best.error) best = line->value;
+  if (line && !(line->value.value <= best.value + best.error)) best = line->value;
   // That proxes stand still is what they say of each other; the values beside the point know nothing of them.
   else if (x_of_best.size() > 0 && is_surpassed(f, v, x_of_best, best.value + 4 * best.error))
     best.error = infinity;

@@ -44,3 +44,14 @@ TEST_CASE("the conjugate of a maximum at a slope that is almost 0 is no less tha
       CHECK(found.value >= v * x - f(Vector::Constant(1, x)) - 1e-9);
   }
 }
+
+TEST_CASE("the supremum of a function that leaves the range of doubles far out is found nearer") {
+  const Function f = samples::function(
+      "tilt(sum(logistic(), exponential(), dilate(max_affine([[0.1],[0.1],[0.10000000001],[-1]], "
+      "[4,3.0000029999999995,-0.001,-0.6999999929999999]), -1.000001e-08)), [1.9999999999999996])",
+      1);
+  // In fifty digits, at 2.
+  const Value found = f.conjugate().evaluate(Vector::Constant(1, 99999910.26995333));
+  CHECK(std::abs(found.value - 7.72372253577232) <= found.error);
+  CHECK(found.error <= 1e-5);
+}
