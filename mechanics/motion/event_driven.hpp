@@ -109,6 +109,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::optional<HeldRows::Answer> acceleration_off_zero(const State& there,
                                                         const std::vector<std::size_t>& left, double tau = 0);
   void follow_jumps(std::vector<Index>& at_zero, const std::vector<double>& before);
+  bool take_sides_of_start(std::vector<Index>& switches);
   void take_sides_ahead(Contacts& found, const std::vector<Index>& switches);
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
   /// is an impact, a separation, or the end, and nothing is left to do.

@@ -110,6 +110,28 @@ void Motion::EventDriven::take_sides_ahead(Contacts& found, const std::vector<In
   }
 }
 
+/// Of switches at 0 but for what is less than the rounding of a state on the way: those that the start itself
+/// has off 0, by more than its own numbers are rounded, are on its side, unless they stay 0. Returns whether
+/// there are such, which are no longer in question.
+bool Motion::EventDriven::take_sides_of_start(std::vector<Index>& switches) {
+  const auto is_off = [&](Index which) {
+    const auto k = static_cast<std::size_t>(which);
+    const double argument = expansion_.switch_argument(k)[0], part = expansion_.part_as_given();
+    const bool is_beyond = std::abs(argument) > part * expansion_.rounding_of_argument(k);
+    if (argument != 0 && !is_beyond)
+      remark(RemarkKind::start,
+             "an argument of a branch, as x of |x|, is off 0 at the start by no more than its rounding, and "
+             "counts as 0",
+             std::abs(argument));
+    if (expansion_.branch(k) == 0 || !is_beyond) return false;
+    expansion_.branch(k) = std::copysign(1.0, argument);
+    arguments_[k].left_of_zero = 0;
+    arguments_[k].zeros = 0;
+    return true;
+  };
+  return std::erase_if(switches, is_off) > 0;
+}
+
 /// The difference of T - V between the branches of a switch, at the zero of its argument: events that
 /// rounding does not tell apart are met at the first of them, where the argument of a later one is not 0 yet,
 /// and T - V with a kink differs by as much of its slope. Branches that jump with it, none of the switches

@@ -259,6 +259,8 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, std::vec
         ": both arguments of an atan2 are 0, and nothing tells the angle there; write the expressions "
         "without it, or begin beside that place");
   std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
+  if (answer && record.steps == 0 && take_sides_of_start(switches))
+    answer = answer_on_branches(contacts, switches);
   if (answer && meet_kinks(contacts, switches)) return;
   if (!answer) {
     const std::string obstacle = "at t = " + number_text(state.t) + ": " + obstacle_ahead(contacts, switches);

@@ -171,8 +171,8 @@ std::optional<double> Motion::EventDriven::sign_ahead(std::size_t k, std::vector
   }
   if (record.steps > 0 && first > 0 && first < c.size() && farthest > 0) {
     const std::size_t seen = first == 1 && argument.crosses && !by_single_terms_ ? 2 : c.size();
-    const LeavingTerm leaving = leaving_term(c.first(seen), by_rounding, first, farthest, by_single_terms_);
-    first = leaving.order;
+    const LeavingTerm leaving = leaving_term(c, by_rounding, first, farthest);
+    first = leaving_term(c.first(seen), by_rounding, first, farthest, by_single_terms_).order;
     // What is left of a rest, c_0 or c_1, moves on by itself, and stays within that for as long as it took to
     // come here, from farther, and for as long as the motion takes to change: a force that has just begun to
     // push is small yet, and leads away sooner.
@@ -234,8 +234,8 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   for (std::size_t k = 0; k < switches; ++k)
     before.push_back(expansion_.switch_argument(k)[0]), across.push_back(expansion_.branch(k));
   for (const Index which : at_zero) {
-    double& branch = across[static_cast<std::size_t>(which)];
-    branch = begins ? 0 : arguments_[static_cast<std::size_t>(which)].crosses ? -branch : branch;
+    const auto k = static_cast<std::size_t>(which);
+    if (begins || arguments_[k].crosses) across[k] = begins ? (before[k] > 0) - (before[k] < 0) : -across[k];
   }
   enum class Found { nothing, excluded, beside, itself };
   std::optional<ContactAnswer> answer;

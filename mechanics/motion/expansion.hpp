@@ -176,6 +176,8 @@ class Expansion {
   std::vector<std::vector<double>> rounding_of_rates(const std::vector<Index>& which, int orders);
   /// The same of the argument itself, at a state.
   double rounding_of_argument(std::size_t k);
+  /// This part of it at a state whose numbers are as they were given, each rounded once.
+  double part_as_given() const;
   /// Whether one of the arguments may jump, as at a pole, or have a kink, of which its series do not tell.
   bool may_jump() const { return may_jump_; }
   /// Whether that argument, or that f, has a quotient that may be nothing beside a number far from its pole.

@@ -195,6 +195,10 @@ double Expansion::rounding_of_argument(std::size_t k) {
   return rounding(0) * magnitude_of(steps_.switches[k].argument);
 }
 
+double Expansion::part_as_given() const {
+  return (convex::unit_roundoff + rounding_of_operations(0)) / rounding(0);
+}
+
 bool Expansion::has_open_angle() {
   const auto is_zero = [&](Slot series) {
     return std::abs(series_[series][0]) <= rounding(0) * magnitude_of(series);
