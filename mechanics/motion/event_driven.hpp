@@ -35,6 +35,7 @@ class Motion::EventDriven final : public Motion::Course {
   void begin(const State& at);
   void take_step(double until);
   void look_for_progress();
+  void look_for_stiffness();
   double rounding_of_time(double ahead) const;
   std::vector<Zero> closing_at_once();
   std::vector<Zero> closing_at_the_end();
@@ -181,6 +182,13 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<ImpactHistory> history_;
   std::vector<Watched> watched_;  // on the next arc
   std::vector<double> sizes_;     // ||q_k||_A on the next arc, by order
+  /// Steps without an event, one after the other, and the forces as they began.
+  struct Stretch {
+    long steps = 0, events = 0;
+    double begin = 0, took_before = 0;
+    Vector force, largest, change, velocity;  ///< at the beginning; the largest ones since
+  };
+  Stretch stretch_;
   std::vector<bool> is_held_;     // on the next arc
   std::vector<bool> is_counted_;  // of them
   State there_;                   // the end of the step

@@ -111,10 +111,10 @@ bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_lea
       jumps ? 0 : std::max(options.tolerance, orders * orders * tolerance_of_step(options.tolerance));
   if (defect <= allowed * moved + rounding) return true;
   // Away from where a derivative has no bound a step leads that is nothing beside the whole motion.
-  if (is_cut_ && tau <= roundings_of_motion * epsilon * (until_ - start_) && miss <= bend) {
+  if (is_cut_ && tau <= roundings_of_motion * epsilon * (until_ - start_)) {
     double higher = 0;
     for (std::size_t k = sizes_.size(); k-- > 3;) higher = (higher + sizes_[k]) * tau;
-    if (higher <= bend) return true;
+    if (higher <= bend + expansion_.norm(expected_q2_)) return true;
   }
   // Forces that cancel have the rounding of their terms.
   return defect <= expansion_.rounding_of_acceleration() * tau * tau;
@@ -223,7 +223,8 @@ bool Motion::EventDriven::may_leave_rest() {
   bool may_leave = false;
   std::vector<std::size_t> at_zero;
   for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    if (expansion_.branch(k) == 0) at_zero.push_back(k);
+    if (std::abs(expansion_.switch_argument(k)[0]) <= expansion_.rounding_of_argument(k))
+      at_zero.push_back(k);
   for (Index i = 0; i < expansion_.coordinates() && !may_leave; ++i) {
     if (expansion_.position(i)[1] != 0 || expansion_.position(i)[2] != 0) continue;
     for (const bool of_velocity : {false, true})
@@ -247,7 +248,12 @@ void Motion::EventDriven::fill_next() {
   is_cut_ = expansion_.cut() > 0;
   ends_early_ = expansion_.ends_early();
   cut_in_a_row_ = ends_early_ ? cut_in_a_row_ + 1 : 0;
-  if (is_cut_ && (cut_in_a_row_ > most_cut_in_a_row || may_leave_rest())) expansion_.refuse_cut();
+  if (is_cut_ && cut_in_a_row_ > most_cut_in_a_row)
+    expansion_.refuse_cut("; steps away from where a force has no derivative do not end");
+  if (is_cut_ && may_leave_rest())
+    expansion_.refuse_cut(
+        "; a force may push off what is at rest there, as sqrt(x) or -sqrt(abs(x')) does, and more than one "
+        "motion lead from it");
   const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
   next.t = state.t;
   next.q.resize(n, last + 1);

@@ -29,6 +29,11 @@ constexpr double part_of_crowd = 1e-7;
 constexpr double even_part = 1e-3;
 constexpr double times_too_far = 100;
 
+/// Where forces change by less than this part in so many steps, as often as told in a row, what limits the
+/// steps is no change of the motion.
+constexpr long steps_of_stretch = 10'000;
+constexpr double unchanged_part = 0.1;
+
 }  // namespace
 
 /// Whether contacts that exclude each other at an impact do so by no more than rounding of f tells: at speeds
@@ -97,8 +102,44 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   return found;
 }
 
+/// Stops where steps are so short, though no force changes, that the limit of steps lies before the end: a
+/// velocity follows the others at a rate of which explicit steps are the longer ones, as under -√|v| beside a
+/// slower one that it is coupled with. Where nothing but its rounding is left of it, its force may be
+/// anything.
+void Motion::EventDriven::look_for_stiffness() {
+  const Vector& force = expansion_.force();
+  Stretch& of = stretch_;
+  if (of.steps == 0 || of.events != record.events || of.force.size() != force.size()) {
+    const double took = of.events == record.events ? of.took_before : 0;
+    const Vector zero = Vector::Zero(force.size());
+    of = {0, record.events, since_start_, took, force, zero, zero, zero};
+  }
+  of.largest = of.largest.cwiseMax(force.cwiseAbs());
+  of.change = of.change.cwiseMax((force - of.force).cwiseAbs());
+  of.velocity = of.velocity.cwiseMax(state.v.cwiseAbs());
+  if (++of.steps < steps_of_stretch || status != MotionStatus::done) return;
+  bool is_still = true;
+  for (Index i = 0; i < force.size(); ++i)
+    is_still = is_still && (of.change[i] <= unchanged_part * of.largest[i] ||
+                            of.velocity[i] <= half_the_digits * expansion_.fastest(i));
+  // Each stretch to come is longer than the one before by the same ratio, as these two are, or as long.
+  const double took = since_start_ - of.begin, ratio = std::max(1.0, took / of.took_before),
+               left = until_ - start_ - since_start_,
+               count = static_cast<double>(options.step_limit - record.steps) / steps_of_stretch,
+               farthest = took * (ratio > 1 ? (std::pow(ratio, count) - 1) / (ratio - 1) : count);
+  if (is_still && of.took_before > 0 && left > farthest)
+    stop("at t = " + number_text(state.t) + ": " + std::to_string(steps_of_stretch) +
+         " steps take no more than " + number_text(took) +
+         ", in which no force changes by a tenth: a velocity follows the others ever so fast, as under "
+         "-sign(x')*sqrt(abs(x')) near x' = 0; the end asked for is too far for the limit of " +
+         std::to_string(options.step_limit) + " steps");
+  of.steps = 0;
+  of.took_before = is_still ? took : 0;
+}
+
 /// Stops where steps, or events, lead nowhere.
 void Motion::EventDriven::look_for_progress() {
+  look_for_stiffness();
   if (record.impacts != impacts_at_mark_) mark_ = -1;
   if (mark_ < 0 || record.steps - mark_ >= steps_looked_at) {
     const double shortest = static_cast<double>(steps_looked_at) * roundings_of_step * epsilon * since_start_;

@@ -96,10 +96,12 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(doubl
   return answer;
 }
 
-/// The same at a state, on the branches that these arguments, which are 0 here, take there.
+/// The same at a state, on the branches that these arguments take there.
 std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(
     const State& there, const std::vector<std::size_t>& left, double tau) {
   std::optional<HeldRows::Answer> answer;
+  std::vector<double> before;
+  for (const std::size_t k : left) before.push_back(expansion_.branch(k));
   try {
     expansion_.set(there);
     for (const std::size_t k : left)
@@ -111,7 +113,7 @@ std::optional<HeldRows::Answer> Motion::EventDriven::acceleration_off_zero(
   } catch (const convex::InvalidInput& error) {
     obstacle_ = error.what();
   }
-  for (const std::size_t k : left) expansion_.branch(k) = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) expansion_.branch(left[i]) = before[i];
   return answer;
 }
 

@@ -19,9 +19,9 @@ bool compares(const expression::Tape& tape, expression::NodeId chooses) {
   return operation == expression::Operation::max || operation == expression::Operation::min;
 }
 
-[[noreturn]] void refuse_order(int order) {
+[[noreturn]] void refuse_order(int order, std::string_view besides = "") {
   throw convex::InvalidInput("a value or a derivative of order " + std::to_string(order) +
-                             " is not finite there");
+                             " is not finite there" + std::string(besides));
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ void Expansion::take_branches() {
   }
 }
 
-void Expansion::refuse_cut() const { refuse_order(cut()); }
+void Expansion::refuse_cut(std::string_view besides) const { refuse_order(cut(), besides); }
 
 /// Whether all is that enters the equations.
 bool Expansion::is_finite() const {

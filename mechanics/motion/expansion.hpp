@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,8 @@ class Expansion {
   /// Takes note that the motion has come by here: what rounding may have made of a coordinate near 0 is that
   /// of the sizes that it has had.
   void note_reach(const State& at);
+  /// The largest |q_i'| that it has come by with.
+  double fastest(Index i) const { return fastest_[equations_.program.velocity(index(i))]; }
   /// Whether t itself enters something.
   bool uses_time() const { return steps_.uses_time; }
   /// ||x||_A.
@@ -107,6 +110,8 @@ class Expansion {
   double position_scale(Index a) const;
   /// ||r||_(A⁻¹) of the forces without reactions, once `expand` was asked.
   double force_norm() const;
+  /// These forces.
+  const Vector& force() const { return force_; }
   /// ∂T/∂q'.
   Vector momentum() const;
   /// ∂T/∂q'·x.
@@ -136,8 +141,8 @@ class Expansion {
   }
   /// Whether they end before that order.
   bool ends_early() const { return cut_ > 0; }
-  /// Throws InvalidInput, saying so.
-  [[noreturn]] void refuse_cut() const;
+  /// Throws InvalidInput, saying so, and what follows from it.
+  [[noreturn]] void refuse_cut(std::string_view besides) const;
 
   int order() const { return order_; }
   Index coordinates() const { return equations_.coordinates(); }

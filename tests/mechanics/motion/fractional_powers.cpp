@@ -318,3 +318,27 @@ TEST_CASE("a velocity that a power of it below the first brings to rest in a fin
     CHECK(motion.motion.record().steps < 1000);
   }
 }
+
+TEST_CASE(
+    "a velocity that follows a slower one ever so fast stops the motion soon, not at the limit of steps") {
+  // y'' and x'' are coupled: 2 √|y'| comes to 0.2 x'', so that y' is nearly 0 and its rate 1/√|y'|.
+  const Followed motion = followed({{"x", "y"},
+                                    "0.725*x'^2 - 0.2*x'*y' + 0.375*y'^2",
+                                    "",
+                                    {},
+                                    {},
+                                    {{"x", "-1.5*sign(x')*abs(x')^0.75"}, {"y", "-2*sign(y')*abs(y')^0.5"}},
+                                    {}},
+                                   {0, mechanics::Vector{{-0.3, 0}}, mechanics::Vector{{-0.8, 0.3}}}, 5);
+  CHECK(motion.motion.status() == MotionStatus::stopped);
+  CHECK(motion.motion.why().find("no force changes") != std::string::npos);
+  CHECK(motion.motion.record().steps < 200'000);
+}
+
+TEST_CASE("steps that a fast force asks for are followed, however small it is beside others") {
+  const Followed motion = pushed("1 + 1e-3*sin(3e5*t)*step(0.2 - t)", 0, 0, 20);
+  CHECK(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.motion.record().steps > 20'000);
+  // ∫ 1e-3 sin(w t) to 0.2 is 1e-3 (1 - cos(0.2 w))/w, and 0.2 w = 6e4.
+  CHECK(motion.end().v[0] == doctest::Approx(20 + 1e-3 * (1 - std::cos(6e4)) / 3e5).epsilon(3e-11));
+}
