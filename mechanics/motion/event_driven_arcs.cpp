@@ -249,7 +249,7 @@ void Motion::EventDriven::fill_next() {
   ends_early_ = expansion_.ends_early();
   cut_in_a_row_ = ends_early_ ? cut_in_a_row_ + 1 : 0;
   if (is_cut_ && cut_in_a_row_ > most_cut_in_a_row)
-    expansion_.refuse_cut("; steps away from where a force has no derivative do not end");
+    expansion_.refuse_cut("; so it was for a thousand steps in a row");
   if (is_cut_ && may_leave_rest())
     expansion_.refuse_cut(
         "; a force may push off what is at rest there, as sqrt(x) or -sqrt(abs(x')) does, and more than one "

@@ -130,9 +130,10 @@ void Motion::EventDriven::look_for_stiffness() {
   if (is_still && of.took_before > 0 && left > farthest)
     stop("at t = " + number_text(state.t) + ": " + std::to_string(steps_of_stretch) +
          " steps take no more than " + number_text(took) +
-         ", in which no force changes by a tenth: a velocity follows the others ever so fast, as under "
-         "-sign(x')*sqrt(abs(x')) near x' = 0; the end asked for is too far for the limit of " +
-         std::to_string(options.step_limit) + " steps");
+         ", in which no force changes by a tenth; the end asked for is too far for the limit of " +
+         std::to_string(options.step_limit) +
+         " steps; so it is where a velocity follows the others ever so fast, as under "
+         "-sign(x')*sqrt(abs(x')) near x' = 0");
   of.steps = 0;
   of.took_before = is_still ? took : 0;
 }
