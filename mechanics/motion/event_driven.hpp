@@ -185,6 +185,7 @@ class Motion::EventDriven final : public Motion::Course {
   /// Steps without an event, one after the other, and the forces as they began.
   struct Stretch {
     long steps = 0, events = 0;
+    int in_vain = 0;  ///< so many ones before it led nowhere
     double begin = 0, took_before = 0;
     Vector force, largest, change, velocity;  ///< at the beginning; the largest ones since
   };

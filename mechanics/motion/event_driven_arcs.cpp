@@ -111,7 +111,7 @@ bool Motion::EventDriven::is_met_on_branches(double at, double tau, bool may_lea
       jumps ? 0 : std::max(options.tolerance, orders * orders * tolerance_of_step(options.tolerance));
   if (defect <= allowed * moved + rounding) return true;
   // Away from where a derivative has no bound a step leads that is nothing beside the whole motion.
-  if (is_cut_ && tau <= roundings_of_motion * epsilon * (until_ - start_)) {
+  if (is_cut_ && tau <= roundings_of_motion * epsilon * std::max(until_ - start_, clock())) {
     double higher = 0;
     for (std::size_t k = sizes_.size(); k-- > 3;) higher = (higher + sizes_[k]) * tau;
     if (higher <= bend + expansion_.norm(expected_q2_)) return true;

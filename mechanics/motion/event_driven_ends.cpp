@@ -29,10 +29,11 @@ constexpr double part_of_crowd = 1e-7;
 constexpr double even_part = 1e-3;
 constexpr double times_too_far = 100;
 
-/// Where forces change by less than this part in so many steps, as often as told in a row, what limits the
-/// steps is no change of the motion.
+/// Where forces change by less than this part in so many steps, what limits the steps is no change of the
+/// motion. A velocity that only comes by 0 so slows it down for less than so many times as long.
 constexpr long steps_of_stretch = 10'000;
 constexpr double unchanged_part = 0.1;
+constexpr int most_stretches = 20;
 
 }  // namespace
 
@@ -110,9 +111,12 @@ void Motion::EventDriven::look_for_stiffness() {
   const Vector& force = expansion_.force();
   Stretch& of = stretch_;
   if (of.steps == 0 || of.events != record.events || of.force.size() != force.size()) {
-    const double took = of.events == record.events ? of.took_before : 0;
-    const Vector zero = Vector::Zero(force.size());
-    of = {0, record.events, since_start_, took, force, zero, zero, zero};
+    if (of.events != record.events) of.in_vain = 0, of.took_before = 0;
+    of.steps = 0;
+    of.events = record.events;
+    of.begin = since_start_;
+    of.force = force;
+    of.largest = of.change = of.velocity = Vector::Zero(force.size());
   }
   of.largest = of.largest.cwiseMax(force.cwiseAbs());
   of.change = of.change.cwiseMax((force - of.force).cwiseAbs());
@@ -127,7 +131,11 @@ void Motion::EventDriven::look_for_stiffness() {
                left = until_ - start_ - since_start_,
                count = static_cast<double>(options.step_limit - record.steps) / steps_of_stretch,
                farthest = took * (ratio > 1 ? (std::pow(ratio, count) - 1) / (ratio - 1) : count);
-  if (is_still && of.took_before > 0 && left > farthest)
+  if (!is_still || !(of.took_before > 0) || left <= count * took)
+    of.in_vain = 0;
+  else if (left > farthest)
+    ++of.in_vain;
+  if (of.in_vain >= most_stretches)
     stop("at t = " + number_text(state.t) + ": " + std::to_string(steps_of_stretch) +
          " steps take no more than " + number_text(took) +
          ", in which no force changes by a tenth; the end asked for is too far for the limit of " +
