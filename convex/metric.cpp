@@ -51,9 +51,9 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
       "A: not positive definite to working precision; give a symmetric positive definite matrix");
 }
 
-void require_size(const Vector& x, Index n) {
-  if (x.size() != n)
-    throw InvalidInput("metric: a vector of " + std::to_string(x.size()) + " entries; give " +
+void require_size(Index entries, Index n) {
+  if (entries != n)
+    throw InvalidInput("metric: a vector of " + std::to_string(entries) + " entries; give " +
                        std::to_string(n));
 }
 
@@ -256,7 +256,7 @@ const SparseMatrix& Metric::sparse_gram() const {
 }
 
 Vector Metric::multiply(const Vector& x) const {
-  require_size(x, dimension());
+  require_size(x.size(), dimension());
   switch (data_->kind) {
     case MetricKind::identity:
       return x;
@@ -271,12 +271,13 @@ Vector Metric::multiply(const Vector& x) const {
 }
 
 Vector Metric::solve(const Vector& c) const {
-  require_size(c, dimension());
+  require_size(c.size(), dimension());
   if (data_->kind == MetricKind::diagonal) return c.cwiseQuotient(data_->diagonal);
   return unwhiten(whiten(c));
 }
 
 double Metric::norm(const Vector& x) const {
+  require_size(x.size(), dimension());
   const auto plain_norm = [&](const Vector& u) {
     switch (data_->kind) {
       case MetricKind::identity:
@@ -315,6 +316,7 @@ Vector Metric::unwhiten(const Vector& w) const {
 }
 
 void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
+  require_size(C.rows(), dimension());
   switch (data_->kind) {
     case MetricKind::identity:
       break;
@@ -331,6 +333,7 @@ void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
 }
 
 void Metric::unwhiten_in_place(Eigen::Ref<Vector> w) const {
+  require_size(w.size(), dimension());
   switch (data_->kind) {
     case MetricKind::identity:
       break;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "convex/exact_program/cgal_program.hpp"
 #include "convex/exact_program/linear_equations.hpp"
@@ -287,6 +288,10 @@ std::optional<GraphPoint> near_graph_point(const ExactProgram& f, const Vector& 
 }
 
 ExactMinimum exact_prox(const ExactProgram& f, const ExactGram& W, const Fractions& z) {
+  if (z.size() != W.dimension() || f.n != W.dimension())
+    throw InvalidInput("prox: a point of " + std::to_string(z.size()) + " entries and a function of " +
+                       std::to_string(f.n) + "; give " + std::to_string(W.dimension()) +
+                       ", as many as the metric has");
   return minimum_of(f, &W, z);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "convex/exact/elimination.hpp"
 #include "convex/functions/sets.hpp"
@@ -17,6 +18,12 @@ bool all_zero(const IntegerVector& v, std::size_t n) {
 }
 
 IntegerVector first_entries(const IntegerVector& v) { return {v.begin(), v.end() - 1}; }
+
+void require_entries(const ExactPolyhedron& P, const Fractions& v) {
+  if (v.size() != P.n)
+    throw InvalidInput("polyhedron: a point of " + std::to_string(v.size()) + " entries; give " +
+                       std::to_string(P.n));
+}
 
 Fraction value_at(const IntegerVector& normal, const Fractions& v) {
   Fraction sum;
@@ -90,6 +97,7 @@ ExactPolyhedron polyhedron_of(const PolyhedralCone& K) {
 }
 
 bool contains(const ExactPolyhedron& P, const Fractions& v) {
+  require_entries(P, v);
   if (P.is_empty()) return false;
   for (const ExactHalfspace& row : P.halfspaces)
     if (Fraction{row.limit} < value_at(row.normal, v)) return false;
@@ -99,6 +107,7 @@ bool contains(const ExactPolyhedron& P, const Fractions& v) {
 }
 
 std::optional<Fraction> support_of(const ExactPolyhedron& P, const Fractions& d) {
+  require_entries(P, d);
   for (const IntegerVector& ray : P.rays)
     if (sign(value_at(ray, d)) > 0) return std::nullopt;
   for (const IntegerVector& line : P.lines)

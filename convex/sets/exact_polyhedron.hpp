@@ -33,6 +33,7 @@ ExactPolyhedron section_at_one(const PolyhedralCone& K);
 ExactPolyhedron polyhedron_of(const PolyhedralCone& K);
 ExactPolyhedron empty_polyhedron(std::size_t n);
 
+/// Throws InvalidInput where v has not n entries; so does `support_of`.
 bool contains(const ExactPolyhedron& P, const Fractions& v);
 /// sup of d·v over v in P; none where it is +inf. P is not empty.
 std::optional<Fraction> support_of(const ExactPolyhedron& P, const Fractions& d);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/composite/atom.hpp"
@@ -107,6 +108,9 @@ std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
 
 Subdifferential subdifferential(const Call& f, const ExactGram& W, const Fractions& x) {
   using namespace subgradients;
+  if (x.size() != W.dimension())
+    throw InvalidInput("x: " + std::to_string(x.size()) + " entries; give " + std::to_string(W.dimension()) +
+                       ", as many as the metric has");
   if (const auto program = exact_program(f, W)) {
     if (auto P = of_program(*program, x)) return of_polyhedron(std::move(*P), true);
     if (auto found = of_smooth_or_homogeneous(f, W, x)) return std::move(*found);

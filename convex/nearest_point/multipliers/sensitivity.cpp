@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "convex/infinity.hpp"
+#include "convex/invalid_input.hpp"
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
@@ -81,6 +83,9 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
 std::optional<Derivative> directional_derivative(const NearestPointProblem& problem, const Solution& solution,
                                                  const Multipliers& multipliers, const Vector& dz,
                                                  const Vector& ds, const std::vector<Index>& weak) {
+  if (ds.size() != problem.rows())
+    throw InvalidInput("ds: " + std::to_string(ds.size()) + " entries; give " +
+                       std::to_string(problem.rows()) + ", one per row of U");
   if (!has_digits(problem.A)) return std::nullopt;
   const std::vector<Index>& tight = multipliers.tight;
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
+
+#include "convex/invalid_input.hpp"
 
 namespace convex::inline optimality {
 namespace {
@@ -24,6 +27,9 @@ double largest_entry(const ConstraintRows& U, Index a) {
 }  // namespace
 
 bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, double reach) {
+  if (w.size() != problem.rows())
+    throw InvalidInput("w: " + std::to_string(w.size()) + " weights; give " + std::to_string(problem.rows()) +
+                       ", one per row of U");
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   DoubleDoubleVector combination(problem.dimension());
   DoubleDouble gap;
