@@ -79,8 +79,7 @@ Set point(double p) {
 }
 
 Set point(const Vector& p) {
-  require_finite("point", "p", p);
-  if (p.size() == 0) throw InvalidInput("point(p): no entries; give at least one");
+  require_entries("point", "p", p);
   const Call set{"point", {argument("p", p)}};
   PiecewiseSum parts{.call = indicator_call(set),
                      .conjugate_call = {"linear", {argument("c", p)}},

@@ -147,12 +147,6 @@ Function Entropy::conjugate() const { return scalar_sum(EntropyConjugate{}); }
 Function Exponential::conjugate() const { return scalar_sum(ExponentialConjugate{}); }
 Function KullbackLeibler::conjugate() const { return scalar_sum(Expm1{{}, reference}); }
 
-void require_weights(const char* maker, const char* parameter, const Vector& weights) {
-  require_finite(maker, parameter, weights);
-  if (weights.size() == 0 || weights.minCoeff() < 0)
-    throw InvalidInput(std::string(maker) + "(" + parameter + "): an entry is negative; give 0 or more");
-}
-
 }  // namespace
 
 Function entropy() { return scalar_sum(Entropy{}); }
@@ -165,7 +159,7 @@ Function kullback_leibler(double reference) {
 }
 
 Function kullback_leibler(const Vector& reference) {
-  require_weights("kullback_leibler", "reference", reference);
+  require_nonnegative("kullback_leibler", "reference", reference);
   return scalar_sum(KullbackLeibler{{}, one_or_each(reference)});
 }
 
@@ -175,7 +169,7 @@ Function expm1(double weight) {
 }
 
 Function expm1(const Vector& weight) {
-  require_weights("expm1", "weight", weight);
+  require_nonnegative("expm1", "weight", weight);
   return scalar_sum(Expm1{{}, one_or_each(weight)});
 }
 

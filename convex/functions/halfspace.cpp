@@ -131,11 +131,10 @@ class Slab : public ConvexSet {
 };
 
 void check(const char* set, const Vector& a, double b) {
-  require_finite(set, "a", a);
+  require_entries(set, "a", a);
   require_finite(set, "b", b);
   if (!a.isZero(0) && !std::isfinite(b / a.stableNorm()))
     throw InvalidInput(std::string(set) + ": b over the length of a is not a number; scale them");
-  if (a.size() == 0) throw InvalidInput(std::string(set) + "(a): no entries; give at least one");
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ Function constant(double c) {
 }
 
 Function linear(const Vector& c) {
-  require_finite("linear", "c", c);
+  require_entries("linear", "c", c);
   PiecewiseSum parts{
       .call = {"linear", {argument("c", c)}},
       .conjugate_call = indicator_call({"point", {argument("p", c)}}),
@@ -69,9 +69,7 @@ Function norm1(double weight) {
 }
 
 Function norm1(const Vector& weight) {
-  require_finite("norm1", "weight", weight);
-  if (weight.size() == 0 || weight.minCoeff() < 0)
-    throw InvalidInput("norm1(weight): an entry is negative; give 0 or more");
+  require_nonnegative("norm1", "weight", weight);
   const Call box{"box", {argument("lower", Vector(-weight)), argument("upper", weight)}};
   PiecewiseSum parts{.call = {"norm1", {argument("weight", weight)}},
                      .conjugate_call = indicator_call(box),

@@ -228,9 +228,8 @@ Function total_variation(double weight) {
 namespace {
 
 std::shared_ptr<const ConvexSet> sorted(const char* maker, const Vector& weights) {
-  require_finite(maker, "weights", weights);
-  if (weights.size() == 0 || weights.minCoeff() < 0 ||
-      !std::is_sorted(weights.begin(), weights.end(), std::greater<>()))
+  require_entries(maker, "weights", weights);
+  if (weights.minCoeff() < 0 || !std::is_sorted(weights.begin(), weights.end(), std::greater<>()))
     throw InvalidInput(std::string(maker) +
                        "(weights): not w_1 >= w_2 >= … >= 0; the function would not be convex, sort them");
   return std::make_shared<SignedPermutahedron>(weights);

@@ -26,6 +26,16 @@ void require_finite(const char* maker, const char* parameter, const Matrix& numb
   if (!numbers.allFinite()) refuse(maker, parameter, "an entry is not finite; give numbers");
 }
 
+void require_entries(const char* maker, const char* parameter, const Vector& numbers) {
+  if (numbers.size() == 0) refuse(maker, parameter, "no entries; give at least one");
+  require_finite(maker, parameter, numbers);
+}
+
+void require_nonnegative(const char* maker, const char* parameter, const Vector& numbers) {
+  require_entries(maker, parameter, numbers);
+  if (numbers.minCoeff() < 0) refuse(maker, parameter, "an entry is negative; give 0 or more");
+}
+
 void require_nonnegative(const char* maker, const char* parameter, double number) {
   require_finite(maker, parameter, number);
   if (number < 0) refuse(maker, parameter, "negative; give 0 or more");

@@ -11,6 +11,10 @@ namespace convex::inline gamma0 {
 void require_finite(const char* maker, const char* parameter, double number);
 void require_finite(const char* maker, const char* parameter, const Vector& numbers);
 void require_finite(const char* maker, const char* parameter, const Matrix& numbers);
+/// At least one entry, each finite.
+void require_entries(const char* maker, const char* parameter, const Vector& numbers);
+/// The same, and each >= 0.
+void require_nonnegative(const char* maker, const char* parameter, const Vector& numbers);
 /// Finite and >= 0.
 void require_nonnegative(const char* maker, const char* parameter, double number);
 /// Whether n entries stack a square matrix by columns.

@@ -56,8 +56,10 @@ std::vector<CatalogueEntry> set_entries() {
        iterative,
        {"ball2(2)", "ball2(radius=1.5, center=[1,0,-1])", "ball2(0)"},
        [](const Arguments& a) {
-         return indicator(a.given("center") ? ball2(a.number("radius"), a.vector("center"))
-                                            : ball2(a.number("radius")));
+         if (!a.given("center")) return indicator(ball2(a.number("radius")));
+         const Vector center = a.vector("center");
+         if (center.size() == 0) a.refuse("center", "no entries; give at least one");
+         return indicator(ball2(a.number("radius"), center));
        }},
       {"ball1",
        EntryKind::set,
