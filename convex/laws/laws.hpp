@@ -9,6 +9,9 @@ namespace convex::inline law_checks {
 /// a few roundings (`rounding_bound`).
 LawReport laws(const Subject& f, Index n);
 
+/// A prox that is known by its point alone. Throws InvalidInput when this has not n entries.
+Prox given_prox(Vector x, Index n);
+
 template <Gamma0 F>
 LawReport laws(const F& f, Index n = 3) {
   return laws(Subject{[&f](const Vector& x) { return static_cast<double>(f(x)); },
@@ -16,8 +19,7 @@ LawReport laws(const F& f, Index n = 3) {
                         if constexpr (std::same_as<std::remove_cvref_t<decltype(f.prox(z, W))>, Prox>)
                           return f.prox(z, W);
                         else
-                          return Prox{f.prox(z, W),  {}, 0, 0, ProxRoute::closed_form, "given",
-                                      Status::solved};
+                          return given_prox(f.prox(z, W), z.size());
                       }},
               n);
 }

@@ -3,11 +3,16 @@
 #include <cmath>
 #include <random>
 
+#include "convex/invalid_input.hpp"
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 
 namespace convex::inline law_checks {
 namespace {
+
+void require_entries(Index n) {
+  if (n < 1) throw InvalidInput("n: not positive; give the number of entries to try the laws on");
+}
 
 Vector normal_vector(std::mt19937& generator, Index n) {
   std::normal_distribution<double> normal;
@@ -31,6 +36,7 @@ Matrix matrix_of_condition(Index n, double condition) {
 }
 
 std::vector<NamedMetric> trial_metrics(Index n) {
+  require_entries(n);
   Vector d(n);
   for (Index i = 0; i < n; ++i) d[i] = std::ldexp(3.0, static_cast<int>(i % 4) - 2);
   return {{"identity", Metric::identity(n)},
@@ -40,6 +46,7 @@ std::vector<NamedMetric> trial_metrics(Index n) {
 }
 
 std::vector<Vector> trial_points(Index n) {
+  require_entries(n);
   std::vector<Vector> points{Vector::Zero(n), Vector::Ones(n), -2 * Vector::Ones(n)};
   Vector whole(n), lone = Vector::Zero(n);
   for (Index i = 0; i < n; ++i) whole[i] = static_cast<double>(i % 2 == 0 ? i + 1 : -i - 1);

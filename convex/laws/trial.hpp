@@ -14,7 +14,8 @@ struct Trial {
   std::string metric_name;
 };
 
-/// The metrics of the trials in n dimensions: identity, diagonal, dense, and dense with condition 1e6.
+/// The metrics of the trials in n dimensions: identity, diagonal, dense, and dense with condition 1e6. Throws
+/// InvalidInput when n < 1, as `trial_points` does.
 struct NamedMetric {
   std::string name;
   Metric W;

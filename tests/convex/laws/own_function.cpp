@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/functions/piecewise_functions.hpp"
+#include "convex/invalid_input.hpp"
+#include "convex/laws/call_laws.hpp"
 #include "convex/laws/laws.hpp"
 
 using namespace convex;
@@ -55,5 +58,21 @@ TEST_CASE("a small slip in a user's prox fails, and the text shows law, value, b
   for (const char* words : {"FAILED", "bound", "z = [", "metric"}) {
     CAPTURE(words);
     CHECK(report.text().find(words) != std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "laws of no entries, and a prox that gives another number of them, are refused in their own words") {
+  struct Short {
+    double operator()(const Vector&) const { return 0; }
+    Vector prox(const Vector& z, const Metric&) const { return z.head(1); }
+  };
+  CHECK_THROWS_WITH_AS(laws(Short{}), "prox: it gave 1 entries at a point of 3; return as many",
+                       InvalidInput);
+  for (const Index n : {0, -1}) {
+    CAPTURE(n);
+    CHECK_THROWS_AS(laws(Wall{Vector(), 0.5}, n), InvalidInput);
+    CHECK_THROWS_AS(laws(norm1(), n), InvalidInput);
+    CHECK_THROWS_AS(laws(Call{"norm1"}, n), InvalidInput);
   }
 }
