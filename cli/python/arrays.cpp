@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "cli/problem_file/read_metric.hpp"
+#include "cli/python/options.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace py = pybind11;
@@ -78,7 +80,7 @@ convex::Matrix matrix_of(py::handle numbers, const char* name) {
   return Eigen::Map<const convex::RowMatrix>(made.data(), made.shape(0), made.shape(1));
 }
 
-convex::Metric metric_of(py::handle W, Index n, const char* name) {
+convex::Metric metric_of(py::handle W, Index n, const char* name) try {
   if (W.is_none()) return convex::Metric::identity(n);
   if (py::isinstance<convex::Metric>(W)) return py::cast<const convex::Metric&>(W);
   if (is_sparse(W))
@@ -92,6 +94,8 @@ convex::Metric metric_of(py::handle W, Index n, const char* name) {
   // Metric::dense refuses what is not symmetric, so that rows may be read as columns; a rectangle is told as
   // such.
   return convex::Metric::dense(Eigen::Map<const convex::Matrix>(made.data(), made.shape(0), made.shape(1)));
+} catch (const InvalidInput& error) {
+  throw InvalidInput(cli::metric_message(error.what(), name));
 }
 
 convex::ConstraintRows rows_of(py::handle U, const char* name) {
@@ -102,6 +106,14 @@ convex::ConstraintRows rows_of(py::handle U, const char* name) {
                        "; give a matrix, one row per constraint");
   return convex::ConstraintRows(
       convex::RowMatrix(Eigen::Map<const convex::RowMatrix>(made.data(), made.shape(0), made.shape(1))));
+}
+
+std::vector<Index> row_numbers(py::handle numbers, const char* name) {
+  const py::array made = py::array::ensure(numbers);
+  if (!made) PyErr_Clear();
+  if (made && made.dtype().kind() == 'b')
+    throw InvalidInput(std::string(name) + ": booleans; give row numbers, of a mask numpy.flatnonzero(mask)");
+  return option<std::vector<Index>>(numbers, name);
 }
 
 py::object view_of(const convex::Vector& x, py::handle owner) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "convex/nearest_point/problem.hpp"
 
 namespace pybind11 {
@@ -21,6 +23,9 @@ convex::Metric metric_of(pybind11::handle W, convex::Index n, const char* name);
 
 /// Rows: a matrix, numpy or scipy.sparse.
 convex::ConstraintRows rows_of(pybind11::handle U, const char* name);
+
+/// Numbers of rows, as integers. A mask of booleans is refused: read as integers it would name rows 0 and 1.
+std::vector<convex::Index> row_numbers(pybind11::handle numbers, const char* name);
 
 /// Is it a scipy.sparse matrix?
 bool is_sparse(pybind11::handle numbers);

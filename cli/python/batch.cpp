@@ -122,7 +122,7 @@ Batch batch_of(const py::object& A, const py::object& z, const py::object& U, co
   count(batch, batch.z, "z");
   count(batch, batch.U, "U");
   count(batch, batch.s, "s");
-  if (!two_sided.is_none()) batch.two_sided = option<std::vector<Index>>(two_sided, "two_sided");
+  if (!two_sided.is_none()) batch.two_sided = row_numbers(two_sided, "two_sided");
   return batch;
 }
 

@@ -136,7 +136,9 @@ void add_operators(py::class_<Expression, Shared>& type) {
   const auto not_positive = [](double alpha) {
     if (!(alpha > 0))
       throw InvalidInput("a function times " + convex::to_text(alpha) +
-                         " is not convex; give a positive number");
+                         (alpha == 0 ? ": 0 on its domain or everywhere, which this does not tell; write the "
+                                       "indicator of the domain, or zero()"
+                                     : " is not convex; give a positive number"));
   };
   const auto times = [not_positive](const Expression& f, double alpha) {
     not_positive(alpha);

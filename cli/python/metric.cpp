@@ -40,7 +40,13 @@ again and again, a Metric saves its factorisation. W maps vectors to covectors.)
              return metric_of(W, 0, "W");
            }),
            py::arg("W"))
-      .def_property_readonly("dimension", &convex::Metric::dimension)
+      .def_property_readonly("dimension", &convex::Metric::dimension, "n")
+      .def("__repr__",
+           [](const convex::Metric& W) {
+             const char* const kinds[] = {"identity", "diagonal", "dense", "sparse"};
+             const std::string n = std::to_string(W.dimension());
+             return "Metric(" + n + " by " + n + ", " + kinds[static_cast<int>(W.kind())] + ")";
+           })
       .def_property_readonly(
           "gram",
           [](const convex::Metric& W) {

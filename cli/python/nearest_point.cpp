@@ -45,7 +45,7 @@ std::shared_ptr<Solved> solve_numbers(const py::object& A, const py::object& z, 
       {},
       {}};
   problem.s = s.is_none() ? convex::Vector::Zero(problem.rows()) : vector_of(s, "s");
-  if (!two_sided.is_none()) problem.two_sided = option<std::vector<Index>>(two_sided, "two_sided");
+  if (!two_sided.is_none()) problem.two_sided = row_numbers(two_sided, "two_sided");
   const SolveChoice choice = choice_of(method, tolerance);
   const py::gil_scoped_release released;
   return std::make_shared<Solved>(std::move(problem), choice);

@@ -68,6 +68,7 @@ class UserFunction : public convex::FunctionNode {
 
 std::shared_ptr<const convex::FunctionNode> user_function(py::object value, py::object prox, Index n,
                                                           std::string name) {
+  if (n < 0) throw InvalidInput("n: negative; give the number of entries, or 0 for any");
   return std::make_shared<UserFunction>(std::move(value), std::move(prox), n, std::move(name));
 }
 

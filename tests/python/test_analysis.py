@@ -121,6 +121,21 @@ class Maps(unittest.TestCase):
 
 
 class Messages(unittest.TestCase):
+    def test_a_metric_is_called_by_the_name_of_its_argument(self):
+        for W, message in (([[1, 2], [0, 1]], r"W: not symmetric: W\[0\]\[1\] and W\[1\]\[0\]"),
+                           ([[1, 2], [2, 1]], "^W: not positive definite"), ([1, 0], r"W\[1\]\[1\] is not positive")):
+            for call in (lambda: moreau.prox(norm1(), [1, 2], W), lambda: moreau.Metric(W)):
+                with self.assertRaisesRegex(moreau.InvalidInput, message):
+                    call()
+        self.assertEqual(repr(moreau.Metric([1, 2])), "Metric(2 by 2, diagonal)")
+
+    def test_numbers_of_entries_that_are_none_are_refused(self):
+        for wrong in (lambda: moreau.laws(norm1(), 0), lambda: moreau.laws(norm1(), -1),
+                      lambda: moreau.user_function(lambda x: 0.0, lambda z, W: z, n=-1, check=0),
+                      lambda: moreau.user_function(lambda x: 0.0, lambda z, W: z, check=-1)):
+            with self.assertRaisesRegex(moreau.InvalidInput, "^n: (not positive|negative)"):
+                wrong()
+
     def test_wrong_arguments_are_told_in_the_modules_own_words(self):
         f, z = norm1(), [1, 2]
         at = moreau.subdifferential(f, z)

@@ -48,6 +48,10 @@ class Language(unittest.TestCase):
         with self.assertRaises(TypeError):
             norm1() * norm1()
 
+    def test_a_function_times_zero_is_not_called_nonconvex(self):
+        with self.assertRaisesRegex(moreau.InvalidInput, r"^a function times 0: .* zero\(\)$"):
+            0 * norm1()
+
     def test_values_and_membership_are_those_of_numpy(self):
         x = np.array([0.5, -2, 3])
         self.assertEqual((2 * norm1() + 1)(x), 2 * np.abs(x).sum() + 1)

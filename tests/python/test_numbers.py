@@ -102,9 +102,17 @@ class Numbers(unittest.TestCase):
                                (dict(U=np.ones((2, 3))), "U"),
                                (dict(s=[0.0]), "s: "),
                                (dict(two_sided=[5]), "no row 5"),
+                               (dict(two_sided=np.array([False, True])), "two_sided: booleans; .*flatnonzero"),
+                               (dict(z=np.zeros((3, 2)), two_sided=[True, False]), "two_sided: booleans"),
                                (dict(method="activ-set"), 'did you mean "active-set"')):
             with self.subTest(message), self.assertRaisesRegex(moreau.InvalidInput, message):
                 moreau.solve(**(good | wrong))
+
+    def test_rows_without_a_force_are_told_that_z_is_missing(self):
+        with self.assertRaisesRegex(TypeError, "^z is missing"):
+            moreau.solve(U=[[1, 0]], s=[1])
+        with self.assertRaisesRegex(TypeError, "^nothing to solve"):
+            moreau.solve()
 
     def test_the_same_problem_as_a_dict_has_the_same_answer_in_full(self):
         A, z, U, s = drawn(5)

@@ -124,8 +124,10 @@ def solve(problem=None, /, *, A=None, z=None, U=None, s=None, two_sided=None, me
     if problem is None:
         if options or set:
             raise TypeError(f"{', '.join(options) or 'set'}: for files and dicts; numbers take method and tolerance")
-        if z is None:
+        if z is None and A is None and U is None and s is None and two_sided is None:
             raise TypeError("nothing to solve; give a file, a dict, or A, z, U and s")
+        if z is None:
+            raise TypeError("z is missing; give it, one number per coordinate")
         accuracy = 1e-9 if tolerance is None else tolerance
         if _is_batch(A, z, U, s):
             return Solutions(*_moreau.solve_batch(A, z, U, s, two_sided, method, accuracy))
