@@ -140,6 +140,11 @@ void Motion::EventDriven::tell_blur(const std::vector<Zero>& zeros) {
     const double rounding = rounding_of_f(a) + epsilon * sum_of_terms(c, done.length);
     const double rate = expansion_.rate(a), known = options.tolerance * clock();
     const bool is_soft = zero.is_soft || !(rate < -expansion_.rounding_of_rate(a));
+    if (!is_soft && -rate <= expansion_.rounding_of_rate_so_far(a))
+      remark(RemarkKind::speed,
+             constraint_name(a) +
+                 " closes with a speed that rounding may have made of the speeds before it: "
+                 "whether it does, and when, is not determined by the data");
     const double by_slope = is_soft ? known : rounding / -rate;
     // The width of a zero of order p is about 2 p times that.
     if (!(2 * most_coefficients * by_slope > known)) continue;

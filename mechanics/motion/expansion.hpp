@@ -168,6 +168,8 @@ class Expansion {
   std::span<const double> argument(const FunctionArgument& one) const { return series_[one.argument]; }
   /// Up to here rounding may have made df_a/dt, and the multipliers of contacts held.
   double rounding_of_rate(Index a);
+  /// df_a/dt likewise, where impacts and forces may have brought the velocities down from what they were.
+  double rounding_of_rate_so_far(Index a);
   /// What df/dt, and what f, is the sum of.
   double magnitude_of_rate(Index a);
   double magnitude_of_constraint(Index a);

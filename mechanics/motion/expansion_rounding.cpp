@@ -158,6 +158,12 @@ double Expansion::magnitude_of_constraint(Index a) { return magnitude_of(equatio
 
 double Expansion::rounding_of_rate(Index a) { return rounding(0) * magnitude_of_rate(a); }
 
+double Expansion::rounding_of_rate_so_far(Index a) {
+  magnitude_.begin(fastest_);
+  magnitude_is_begun_ = false;
+  return rounding(0) * if_finite(magnitude_.at(equations_.rate[index(a)], 0));
+}
+
 Vector Expansion::rounding_of_multipliers(const std::vector<Index>& held) {
   const Magnitudes of = magnitudes(held, 0);
   Vector by_rounding(of.rates.size());

@@ -47,6 +47,7 @@ enum class RemarkKind {
   start,         ///< a contact counts as closed at the start
   touch,         ///< one is touched and left within rounding
   slow_closing,  ///< the rounding of f leaves the time of an impact open
+  speed,         ///< a contact closes with a speed that rounding may have made
   order,         ///< impacts that rounding does not tell apart
   impact_law,    ///< what the data leave open of an impact
   accumulation,  ///< impacts not followed one by one

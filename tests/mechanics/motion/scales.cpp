@@ -88,3 +88,27 @@ TEST_CASE("what is said again is one remark: how often, from when to when, and t
   CHECK(remarks[0].t < remarks[0].last);
   CHECK(remarks[0].what.find("impacts of later") == 0);  // the more impacts, the more roundings
 }
+
+TEST_CASE(
+    "an impact whose speed is the rounding of earlier speeds is told, and no other of Newton's cradle is") {
+  const SystemText text{{"a", "b", "c"},
+                        "(a'^2 + b'^2 + c'^2)/2",
+                        "-9.81*(cos(a) + cos(b) + cos(c))",
+                        {},
+                        {},
+                        {},
+                        {{"first", "sin(b) >= sin(a)"}, {"second", "sin(c) >= sin(b)"}}};
+  MotionOptions options = restitution(text, 1);
+  options.impact_law = mechanics::ImpactLaw::sequential;
+  const Followed found = followed(text, state({-0.5, 0, 0}, {0, 0, 0}), 5, options);
+  // The balls that hang at rest part and meet with what rounding leaves of 1.55: some 1e-16.
+  long by_rounding = 0;
+  for (const MotionEvent& one : found.of(EventKind::impact))
+    by_rounding += (one.velocity_before - one.velocity_after).norm() < 1e-12;
+  const auto& remarks = found.motion.record().remarks;
+  REQUIRE(by_rounding > 0);
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0].kind == mechanics::RemarkKind::speed);
+  CHECK(remarks[0].count == by_rounding);
+  CHECK(remarks[0].what.find("second closes with a speed that rounding may have made") == 0);
+}
