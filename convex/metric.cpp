@@ -51,10 +51,8 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
       "A: not positive definite to working precision; give a symmetric positive definite matrix");
 }
 
-void require_size(Index entries, Index n) {
-  if (entries != n)
-    throw InvalidInput("metric: a vector of " + std::to_string(entries) + " entries; give " +
-                       std::to_string(n));
+void require_size(Index m, Index n) {
+  if (m != n) throw InvalidInput("metric: " + std::to_string(m) + " entries; give " + std::to_string(n));
 }
 
 void require_finite(double value, Index i, Index j) {

@@ -289,9 +289,8 @@ std::optional<GraphPoint> near_graph_point(const ExactProgram& f, const Vector& 
 
 ExactMinimum exact_prox(const ExactProgram& f, const ExactGram& W, const Fractions& z) {
   if (z.size() != W.dimension() || f.n != W.dimension())
-    throw InvalidInput("prox: a point of " + std::to_string(z.size()) + " entries and a function of " +
-                       std::to_string(f.n) + "; give " + std::to_string(W.dimension()) +
-                       ", as many as the metric has");
+    throw InvalidInput("prox: " + std::to_string(z.size()) + " entries; give " +
+                       std::to_string(W.dimension()) + ", as many as f and the metric have");
   return minimum_of(f, &W, z);
 }
 
