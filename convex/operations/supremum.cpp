@@ -33,7 +33,7 @@ constexpr double settled = 1e-12, small = 1e-3;
 constexpr double growing = 1.3;
 constexpr int growth_steps = 8;
 /// Beyond, a look along each costs more than the search, and so does one between each two.
-constexpr Index most_axes = 64, few_axes = 8;
+constexpr Index most_axes = 64, few_axes = 4;
 
 /// So much farther out than it began.
 constexpr double farther = 1e12;
@@ -107,13 +107,14 @@ bool recedes_far_out(const Function& f, const Vector& v) {
   return false;
 }
 
-/// The axes, and between each two of them where they are few: a domain may be thin along the axes.
+/// The axes, and between and beside each two of them where they are few: a domain may be thin there.
 std::vector<Vector> directions_beside(Index n) {
   std::vector<Vector> found;
   for (Index i = 0; i < n; ++i) {
     found.push_back(Vector::Unit(n, i));
-    for (Index j = 0; j < i && n <= few_axes; ++j)
-      for (const double sign : {1.0, -1.0}) found.push_back(Vector::Unit(n, i) + sign * Vector::Unit(n, j));
+    for (Index j = 0; j < n && n <= few_axes; ++j)
+      for (const double part : {1.0, -1.0, 1e-3, -1e-3})
+        if (j != i) found.push_back(Vector::Unit(n, i) + part * Vector::Unit(n, j));
   }
   return found;
 }

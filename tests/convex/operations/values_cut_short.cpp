@@ -33,6 +33,19 @@ TEST_CASE("a value for which no work is left is open, however little has been fo
   }
 }
 
+TEST_CASE("a value is open where the work ends, however thin the domain of the conjugate is along the axes") {
+  const Function f = samples::function(
+      "inf_convolution(distance(ball2(1), 3), scale(perspective(squared_norm2(1024)), 0.0009765625))", 2);
+  for (const Vector& x : {Vector{{2, 0}}, Vector{{1.32134, 0.230293}}}) {
+    const double truth = f.evaluate(x).value;
+    const WorkLimit question(1e-5);
+    const Value found = f.evaluate(x);
+    CAPTURE(found.value);
+    CHECK(truth > 0.1);
+    CHECK((std::isinf(found.error) || std::abs(found.value - truth) <= found.error + 1e-12));
+  }
+}
+
 TEST_CASE("the conjugate of a maximum at a slope that is almost 0 is no less than its lower bounds") {
   const std::string text = "pointwise_max(" + std::string(mean_of_two) + ", tilt(constant(1), [3]))";
   const Function f = samples::function(text, 1), g = f.conjugate();
