@@ -185,7 +185,8 @@ class Motion::EventDriven final : public Motion::Course {
   /// Steps without an event, one after the other, and the forces as they began.
   struct Stretch {
     long steps = 0, events = 0;
-    int in_vain = 0;  ///< so many ones before it led nowhere
+    int in_vain = 0;           ///< so many ones before it led nowhere
+    bool is_of_series = true;  ///< no step is as short as the argument of a function asks for
     double begin = 0, took_before = 0;
     Vector force, largest, change, velocity;  ///< at the beginning; the largest ones since
   };

@@ -282,6 +282,7 @@ void Motion::EventDriven::fill_next() {
   const double told = step_ahead_;
   for (const FunctionArgument& one : expansion_.arguments())
     step_ahead_ = seen_length(expansion_.argument(one), one.of, step_ahead_, reach_);
+  stretch_.is_of_series = stretch_.is_of_series && std::isfinite(told) && step_ahead_ == told;
   is_blind_ = is_cut_ || (!expansion_.arguments().empty() &&
                           (step_ahead_ < told || std::isinf(told) || is_rising(sizes_, step_ahead_)));
   watch();

@@ -113,6 +113,7 @@ void Motion::EventDriven::look_for_stiffness() {
   if (of.steps == 0 || of.events != record.events || of.force.size() != force.size()) {
     if (of.events != record.events) of.in_vain = 0, of.took_before = 0;
     of.steps = 0;
+    of.is_of_series = true;
     of.events = record.events;
     of.begin = since_start_;
     of.force = force;
@@ -122,7 +123,7 @@ void Motion::EventDriven::look_for_stiffness() {
   of.change = of.change.cwiseMax((force - of.force).cwiseAbs());
   of.velocity = of.velocity.cwiseMax(state.v.cwiseAbs());
   if (++of.steps < steps_of_stretch || status != MotionStatus::done) return;
-  bool is_still = true;
+  bool is_still = of.is_of_series;
   for (Index i = 0; i < force.size(); ++i)
     is_still = is_still && (of.change[i] <= unchanged_part * of.largest[i] ||
                             of.velocity[i] <= half_the_digits * expansion_.fastest(i));

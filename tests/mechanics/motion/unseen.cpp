@@ -283,3 +283,14 @@ TEST_CASE("a pulse whose denominator grows beyond what doubles hold ends there, 
     CHECK(motion.motion.record().steps < 1000);
   }
 }
+
+TEST_CASE("steps as short as a fast wall asks for are taken to its end, though no force changes") {
+  mechanics::MotionOptions options;
+  options.step_limit = 300'000;  // 210'000 are not enough
+  const Followed motion =
+      followed({{"y"}, "y'^2/2", "", {}, {}, {}, {{"wall", "y >= 0.1*sin(2e6*max(0.55 - t, 0)) - 10"}}},
+               state({0}, {0.01}), 100, options);
+  CHECK(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.motion.record().steps > 220'000);
+  CHECK(motion.end().q[0] == doctest::Approx(1).epsilon(1e-10));
+}
