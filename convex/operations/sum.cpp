@@ -12,6 +12,7 @@
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/composed_prox.hpp"
+#include "convex/operations/implied_bounds.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
@@ -142,7 +143,7 @@ std::optional<LinearQuadratic> Sum::linear_quadratic(Index n) const {
 }
 
 std::optional<GraphForm> Sum::graph(Index n, double slope) const {
-  const auto forms = graphs(parts_, n, slope);
+  const auto forms = graphs(without_implied_bounds(parts_, n), n, slope);
   if (!forms) return std::nullopt;
   return convex::sum(*forms);
 }
