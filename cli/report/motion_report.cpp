@@ -246,8 +246,7 @@ std::string motion_text(const FollowedMotion& followed) {
     text += fmt::format(
         "In steps of one length: errors are of the order of the step; impacts that follow each other within "
         "one are not told apart, and what comes of them may be wrong altogether (try a shorter step). "
-        "Positions "
-        "were corrected by {} of the scale of f at most; T + V changed by {} with it.\n",
+        "Positions were corrected by {} of the scale of f at most; T + V changed by {} with it.\n",
         number_text(record.corrected_penetration), number_text(record.correction_energy));
   return text + remarks_text(all_remarks(followed));
 }
