@@ -3,14 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <functional>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/piecewise/elementary.hpp"
 #include "convex/piecewise/pieces.hpp"
 #include "tests/convex/piecewise/rational_pieces.hpp"
 #include "tests/convex/piecewise/same_bytes.hpp"
 
+using convex::infinity;
 using convex::Pieces;
 using convex::PiecewiseQuadratic;
 using oracles::Rational;
@@ -18,8 +19,6 @@ using oracles::RationalPieces;
 namespace piecewise = convex::piecewise;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Sample {
   RationalPieces exact;

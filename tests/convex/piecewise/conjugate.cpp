@@ -1,20 +1,18 @@
 #include <doctest/doctest.h>
 
-#include <limits>
-
+#include "convex/infinity.hpp"
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/elementary.hpp"
 #include "convex/piecewise/pieces.hpp"
 #include "tests/convex/piecewise/rational_pieces.hpp"
 #include "tests/convex/piecewise/same_bytes.hpp"
 
+using convex::infinity;
 using convex::PiecewiseQuadratic;
 using oracles::Rational;
 namespace piecewise = convex::piecewise;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 PiecewiseQuadratic made(const convex::Pieces& given) {
   return convex::piecewise_quadratic(given.breaks, given.coefficients);

@@ -4,11 +4,13 @@
 
 #include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/piecewise/algebra.hpp"
 #include "tests/convex/piecewise/rational_pieces.hpp"
 #include "tests/convex/piecewise/same_bytes.hpp"
 
+using convex::infinity;
 using convex::Matrix;
 using convex::Pieces;
 using convex::PiecewiseQuadratic;
@@ -16,8 +18,6 @@ using convex::Vector;
 using oracles::Ends;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool same(const Pieces& a, const Pieces& b) {
   return a.breaks.size() == b.breaks.size() && a.breaks == b.breaks && a.coefficients == b.coefficients;

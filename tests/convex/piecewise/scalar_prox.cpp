@@ -23,7 +23,7 @@ PiecewiseQuadratic sample(std::mt19937& generator, int seed, int largest = 7) {
   return convex::piecewise_quadratic(given.breaks, given.coefficients);
 }
 
-double number(std::mt19937& generator, double size) {
+double uniform(std::mt19937& generator, double size) {
   return std::uniform_real_distribution<double>(-size, size)(generator);
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("no other point has a smaller f(u) + d/2 (u - z)^2, in fractions") {
     const PiecewiseQuadratic f = convex::piecewise_quadratic(given.breaks, given.coefficients);
     const oracles::RationalPieces exact(given);
     for (int i = 0; i < 20; ++i) {
-      const double z = number(generator, 12), d = std::exp(number(generator, 3));
+      const double z = uniform(generator, 12), d = std::exp(uniform(generator, 3));
       const double x = convex::prox(f, z, d);
       // The function is strongly convex: |x - x*|^2 d/2 is at most what x is above the infimum.
       convex::Pieces square{Vector(), convex::Matrix::Zero(1, 3)};
@@ -82,7 +82,7 @@ TEST_CASE("z is the prox of f and that of the conjugate, found on two curves") {
     const PiecewiseQuadratic f = sample(generator, seed), g = convex::conjugate(f);
     for (double size : {1e-3, 1.0, 30.0, 1e9})
       for (int i = 0; i < 10; ++i) {
-        const double z = number(generator, size), d = std::exp(number(generator, 3));
+        const double z = uniform(generator, size), d = std::exp(uniform(generator, 3));
         // d z = d prox(f, z, d) + prox(f*, d z, 1/d)
         const double x = convex::prox(f, z, d), y = convex::prox(g, d * z, 1 / d);
         CHECK(std::abs(d * (z - x) - y) <=
@@ -99,7 +99,8 @@ TEST_CASE("the prox is firmly nonexpansive, and its derivative the limit of diff
   for (int seed = 0; seed < 200; ++seed) {
     const PiecewiseQuadratic f = sample(generator, seed);
     for (int i = 0; i < 20; ++i) {
-      const double z = number(generator, 12), w = number(generator, 12), d = std::exp(number(generator, 2));
+      const double z = uniform(generator, 12), w = uniform(generator, 12),
+                   d = std::exp(uniform(generator, 2));
       const double x = convex::prox(f, z, d), u = convex::prox(f, w, d);
       CHECK((x - u) * (x - u) <= (x - u) * (z - w) + 1e-12);
       const double step = 1e-6;
@@ -125,8 +126,8 @@ TEST_CASE("many entries at once have the prox of each, few corners or many") {
     const convex::Index n = 1 + 23 * seed;
     Vector z(n), d(n), x(n);
     for (convex::Index i = 0; i < n; ++i) {
-      z[i] = number(generator, 15);
-      d[i] = std::exp(number(generator, 3));
+      z[i] = uniform(generator, 15);
+      d[i] = std::exp(uniform(generator, 3));
     }
     convex::prox(f, z, d, x);
     for (convex::Index i = 0; i < n; ++i) CHECK(x[i] == convex::prox(f, z[i], d[i]));
@@ -142,8 +143,8 @@ TEST_CASE("the prox of zero is z, of a box its projection, whatever the weight, 
   std::mt19937 generator(26);
   const PiecewiseQuadratic box = piecewise::indicator(-1e8, 1e8), zero = piecewise::constant(0);
   for (int i = 0; i < 1000; ++i) {
-    const double z = number(generator, 1) * std::exp(number(generator, 40)),
-                 d = std::exp(number(generator, 9));
+    const double z = uniform(generator, 1) * std::exp(uniform(generator, 40)),
+                 d = std::exp(uniform(generator, 9));
     CHECK(convex::prox(zero, z, d) == z);
     CHECK(convex::prox(box, z, d) == std::clamp(z, -1e8, 1e8));
     CHECK(convex::prox(piecewise::point(0.1), z, d) == 0.1);

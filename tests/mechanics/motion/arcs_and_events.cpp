@@ -183,9 +183,7 @@ TEST_CASE(
 
 TEST_CASE(
     "where a force has no derivative at the start a motion that moves goes on, and one at rest is refused") {
-  const auto along = [](const std::string& force, double v) {
-    return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {v}), 0.5);
-  };
+  const auto along = [](const std::string& force, double v) { return pushed(force, 0, v, 0.5); };
   // ½ v² - ⅔ x^1.5 = ½ by the energy; the rest of x'' = √x is one of many motions from there.
   const Followed moving = along("sqrt(x)", 1);
   CHECK(moving.motion.status() == MotionStatus::done);

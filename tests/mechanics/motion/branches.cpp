@@ -194,7 +194,7 @@ TEST_CASE("a band of small velocities is entered however slow the velocity is in
     for (const std::string& force :
          {"if(x'^2 < " + band + "^2, -" + band + ", -1)", "if(abs(x') < " + band + ", -" + band + ", -1)"}) {
       CAPTURE(force);
-      const Followed motion = followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {1}), 5);
+      const Followed motion = pushed(force, 0, 1, 5);
       const double left = 5 - (1 - b) - 2;
       CHECK(motion.motion.status() == mechanics::MotionStatus::done);
       CHECK(std::abs(motion.end().q[0] - ((1 - b * b) / 2 - b * left - left * left / 2)) < 1e-8);
@@ -214,9 +214,7 @@ TEST_CASE("a motor of constant power starts from rest by the torque to which it 
 }
 
 TEST_CASE("a motor of constant power brakes a body, and drives it on when it has turned") {
-  const auto driven = [](const std::string& force, double v) {
-    return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({-1}, {v}), 4);
-  };
+  const auto driven = [](const std::string& force, double v) { return pushed(force, -1, v, 4); };
   for (const char* spring : {"-x", "-100*x", "-abs(x)^1.5*sign(x)", "-9.81"})
     for (const double v : {3.0, -1.0}) {
       CAPTURE(spring);

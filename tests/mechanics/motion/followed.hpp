@@ -33,6 +33,11 @@ inline Followed followed(const SystemText& text, const mechanics::State& state, 
   return {std::move(made), std::move(motion), std::move(events)};
 }
 
+/// A unit mass on a line under a force, from x with the velocity v.
+inline Followed pushed(const std::string& force, double x, double v, double until) {
+  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({x}, {v}), until);
+}
+
 /// The same restitution for each constraint.
 inline mechanics::MotionOptions restitution(const SystemText& text, double e) {
   mechanics::MotionOptions options;

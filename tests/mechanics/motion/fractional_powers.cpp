@@ -13,10 +13,6 @@ using mechanics::MotionStatus;
 
 namespace {
 
-Followed pushed(const std::string& force, double x, double v, double until) {
-  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({x}, {v}), until);
-}
-
 /// ∫_a^b f by Simpson's rule on w with v = w².
 double integral_of_squares(double a, double b, const std::function<double(double)>& f) {
   constexpr int parts = 20000;

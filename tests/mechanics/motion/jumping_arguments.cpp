@@ -14,20 +14,18 @@ using mechanics::MotionStatus;
 
 namespace {
 
-constexpr double until = 4;
+constexpr double last = 4;
 
 /// A unit mass from x = 0.5 with the velocity -1.
-Followed pushed(const std::string& force) {
-  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0.5}, {-1}), until);
-}
+Followed pushed(const std::string& force) { return tests::pushed(force, 0.5, -1, last); }
 
 /// The same under a force of 1 at the times of (from, to), and those a period later.
 mechanics::State pushed_between(double from, double to, double period) {
-  mechanics::State end = state({0.5 - until}, {-1});
-  for (double shift = 0; from + shift < until; shift += period) {
-    const double on = from + shift, off = std::min(until, to + shift);
+  mechanics::State end = state({0.5 - last}, {-1});
+  for (double shift = 0; from + shift < last; shift += period) {
+    const double on = from + shift, off = std::min(last, to + shift);
     end.v[0] += off - on;
-    end.q[0] += (off - on) * (until - (on + off) / 2);
+    end.q[0] += (off - on) * (last - (on + off) / 2);
   }
   return end;
 }
@@ -56,9 +54,9 @@ TEST_CASE("a slack rope holds a mass let go straight above its anchor") {
   const Followed
       told = followed(
           {{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {{"x", pull + "*x"}, {"y", pull + "*y - 9.81"}}, {}},
-          state({0, 0.5}, {0, 0}), until),
+          state({0, 0.5}, {0, 0}), last),
       right = followed({{"y"}, "y'^2/2", "", {}, {}, {{"y", "-20*max(0, abs(y) - 1)*sign(y) - 9.81"}}, {}},
-                       state({0.5}, {0}), until);
+                       state({0.5}, {0}), last);
   CHECK(told.motion.status() == MotionStatus::done);
   CHECK(told.end().q[1] == doctest::Approx(right.end().q[0]).epsilon(1e-10));
   CHECK(told.end().v[1] == doctest::Approx(right.end().v[0]).epsilon(1e-10));
@@ -129,7 +127,7 @@ TEST_CASE("bodies a nanometre apart that move for a quarter of an hour come to a
 TEST_CASE("the size of what is no less than 0 is itself where it touches 0") {
   const auto band = [](const std::string& size) {
     return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", "-1 - if(" + size + " < 0.1, x, 0)"}}, {}},
-                    state({1}, {1}), until);
+                    state({1}, {1}), last);
   };
   const Followed told = band("abs(abs(x')^1.5)"), right = band("abs(x')^1.5");
   CHECK(told.end().q[0] == doctest::Approx(right.end().q[0]).epsilon(1e-10));

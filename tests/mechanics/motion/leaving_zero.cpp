@@ -11,14 +11,6 @@
 using namespace tests;
 using mechanics::MotionStatus;
 
-namespace {
-
-Followed pushed(const std::string& force, double x, double v, double until) {
-  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({x}, {v}), until);
-}
-
-}  // namespace
-
 TEST_CASE("a double zero of an argument changes nothing, however near to it rounding lets the motion come") {
   struct Case {
     std::string force, smooth;

@@ -10,9 +10,7 @@ using namespace tests;
 
 namespace {
 
-Followed drawn(const std::string& force) {
-  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {0}), 1);
-}
+Followed drawn(const std::string& force) { return pushed(force, 0, 0, 1); }
 
 }  // namespace
 

@@ -141,8 +141,7 @@ TEST_CASE(
     for (const double d : {1e-10, 1e-8, 1e-6, 1e-3}) {
       CAPTURE(std::string(force));
       CAPTURE(d);
-      const Followed motion =
-          followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({1}, {0.4 + d}), 1);
+      const Followed motion = pushed(force, 1, 0.4 + d, 1);
       CHECK(motion.motion.status() == MotionStatus::stopped);
       CHECK(motion.motion.why().find("slides") != std::string::npos);
       CHECK(motion.end().t == doctest::Approx(d / 15).epsilon(1e-3));
@@ -173,7 +172,7 @@ TEST_CASE("a motion does not go on in a branch that its text has nowhere on that
   // Beyond the edge nothing pushes: the velocity stays at it.
   for (const char* force : {"if(max(x', 0) > 0, -1, 0)", "if(max(x', 0) <= 0, 0, -1)", "-sign(max(x', 0))"}) {
     CAPTURE(std::string(force));
-    const Followed motion = followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {0.5}), 2);
+    const Followed motion = pushed(force, 0, 0.5, 2);
     CHECK(motion.motion.status() == MotionStatus::done);
     CHECK(motion.end().q[0] == doctest::Approx(0.125).epsilon(1e-12));
   }

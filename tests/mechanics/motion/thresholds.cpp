@@ -8,15 +8,6 @@
 using namespace mechanics;
 using namespace tests;
 
-namespace {
-
-/// A unit mass under a force, from x with x' = v.
-Followed pushed(const std::string& force, double x, double v, double until) {
-  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({x}, {v}), until);
-}
-
-}  // namespace
-
 TEST_CASE("a slide that begins beside its threshold is told as a slide, however near") {
   // Below 0.4 the force rises as 3t, so that the slide begins by √(2/3 offset) from there.
   for (const double offset : {1e-15, 1e-14, 1e-13, 3e-13, 1e-12, 3e-12, 1e-11, 1e-9, 1e-6})

@@ -15,9 +15,7 @@ SystemText particle(const std::string& f, const std::string& potential = "") {
   return {{"x", "y"}, "(x'^2 + y'^2)/2", potential, {}, {}, {}, {{"c", f}}};
 }
 
-Followed pushed(const std::string& force, double until) {
-  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {2.5}), until);
-}
+Followed pushed(const std::string& force, double until) { return tests::pushed(force, 0, 2.5, until); }
 
 }  // namespace
 
