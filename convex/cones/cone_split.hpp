@@ -21,7 +21,8 @@ struct ConeSplit {
   double residual = 0;  ///< ||z - x - y||_W
 };
 
-/// `polar_cone` is polar(K, W).
+/// `polar_cone` is polar(K, W); InvalidInput where the two points do not make up z, as those of polar cones
+/// do.
 ConeSplit split(const PolyhedralCone& K, const PolyhedralCone& polar_cone, const ExactVector& z,
                 const ExactMetric& W);
 

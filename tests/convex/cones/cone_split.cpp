@@ -123,3 +123,13 @@ TEST_CASE("a projection refuses sizes that do not fit") {
   CHECK_THROWS_AS(convex::proj(K, Vector(Vector::Zero(2)), convex::Metric::identity(3)),
                   convex::InvalidInput);
 }
+
+TEST_CASE("a split refuses a second cone that is not the polar of the first in its metric") {
+  const PolyhedralCone K = convex::generated_cone(Matrix{{1, 0}, {1, 1}});
+  const convex::ExactMetric W = convex::exact_metric(convex::exact_rows(Matrix{{2, 1}, {1, 2}}));
+  const convex::ExactVector z = convex::exact_vector(Vector{{1, -3}});
+  CHECK(convex::split(K, convex::polar(K, W), z, W).inner.numerator == 0);
+  CHECK_THROWS_AS(convex::split(K, convex::polar(K), z, W),
+                  convex::InvalidInput);  // that of the plain product
+  CHECK_THROWS_AS(convex::split(K, K, z, W), convex::InvalidInput);
+}
