@@ -1,3 +1,4 @@
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -86,10 +87,12 @@ Formula conjugate_formula(const Expression& f, const py::object& W) {
 void add_symbols(py::module_& module) {
   py::class_<Formula>(module, "Formula", R"(A function of one variable by cases, exactly or by rules.
 
-Called with a number it gives the value there, inf outside of all cases.)")
+Called with a number, or an array of them, it gives the values there, inf outside of all cases.)")
       .def(
           "__call__",
-          [](const Formula& formula, double at) { return evaluate(formula.cases, formula.variable, at); },
+          py::vectorize([](Formula& formula, double at) {
+            return evaluate(formula.cases, formula.variable, at);
+          }),
           py::arg("at"))
       .def_property_readonly("text", text_of, "the cases, a line each")
       .def_property_readonly(

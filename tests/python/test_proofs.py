@@ -143,6 +143,7 @@ class Symbols(unittest.TestCase):
         self.assertEqual([case["low"] for case in cases], [None, Fraction(-4, 3), Fraction(4, 3)])
         self.assertEqual(cases[1]["formula"], "z/4")
         self.assertEqual(moreau.symbolic(norm1(), [2]).prox(1), 0.5)
+        self.assertEqual(moreau.symbolic(norm1(), [2]).prox([-1, 0, 0.25, 1]).tolist(), [-0.5, 0, 0, 0.5])
         with self.assertRaises(moreau.InvalidInput):
             moreau.symbolic(moreau.function("norm1([1, 2])"))
 

@@ -126,8 +126,8 @@ def prox_jacobian(f, z, W=None):
 class Symbols:
     """A function of one variable in symbols: formulas f of f(x), prox of prox_f z, conjugate of g(y).
 
-    Each is a Formula: called with a number it gives the value; text, latex, cases. Where there is no rule the formula
-    raises InvalidInput.
+    Each is a Formula: called with a number or an array it gives the values; text, latex, cases. Where there is no rule
+    the formula raises InvalidInput.
     """
 
     def __init__(self, f, W):
