@@ -246,8 +246,8 @@ class Proving {
     return OneProof{proof->level, false, 0};
   }
 
-  /// One-sided contacts whose row is 0 at this state, for all that rounding tells: those without one at any
-  /// ask nothing of q''.
+  /// One-sided contacts whose row is 0 at this state, for all that rounding tells, and that second
+  /// derivatives do not open: those without a row at any state ask nothing of q''.
   std::vector<Index> vanishing_rows() const {
     const expression::LagrangianModel& model = written_.system->model();
     const Vector unit = problem_.A.diagonal().cwiseSqrt().cwiseInverse();
@@ -258,8 +258,10 @@ class Proving {
           (model.tape.depends(model.f[static_cast<std::size_t>(a)]) & expression::on_coordinates) != 0;
       if (is_two_sided(a) || !moves) continue;
       const auto row = static_cast<Index>(k);
-      const double radius = problem_.radii ? problem_.radii->row[row] : 0;
-      if (problem_.U.row(row).cwiseProduct(unit).norm() <= radius) vanishing.push_back(a);
+      const double radius = problem_.radii ? problem_.radii->row[row] : 0,
+                   of_s = problem_.radii ? problem_.radii->s[row] : 0;
+      if (problem_.U.row(row).cwiseProduct(unit).norm() <= radius && !(problem_.s[row] < -of_s))
+        vanishing.push_back(a);
     }
     return vanishing;
   }

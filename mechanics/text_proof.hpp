@@ -18,8 +18,8 @@ struct TextProof {
   /// is proved, two-sided ones within what rounding does. The text does not tell whether they are; they count
   /// as that, and as consistent.
   std::vector<Index> dependent;
-  /// One-sided constraints of K whose gradient is 0 there: of them second derivatives tell nothing, and
-  /// nothing is proved.
+  /// One-sided constraints of K whose gradient is 0 there and that second derivatives do not open: of them
+  /// these tell nothing, and nothing is proved.
   std::vector<Index> vanishing;
   std::vector<Index> K;  ///< the rows of the solution below: the one K, or that of the tolerance
   std::optional<ExactGaussSolution> exact;           ///< the solution for K, where it is rational

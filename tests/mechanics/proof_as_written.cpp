@@ -102,6 +102,16 @@ TEST_CASE("a contact that the coordinates do not enter asks nothing, and the ans
   CHECK(vanishing.certificate.level == ProofLevel::none);
 }
 
+TEST_CASE("a contact whose gradient is 0 is certified where second derivatives open it") {
+  for (const auto& [y, floor] :
+       {std::pair{"0", "(y - t)^2 >= 0"}, std::pair{"sqrt(2)", "(y^2 - 2 - t)^2 >= 0"}}) {
+    CAPTURE(std::string(floor));
+    const CertifiedSolution found = over_the_floor(y, "9.81", floor);
+    CHECK(found.text->vanishing.empty());
+    CHECK(found.certificate.level == ProofLevel::exact);
+  }
+}
+
 TEST_CASE("where the text leaves a contact open, and it matters, nothing is certified") {
   const CertifiedSolution found = over_the_floor("0", "9.81", "y >= sin(1.4) - 2*sin(0.7)*cos(0.7)");
   CHECK(found.text->open == std::vector<Index>{0});
