@@ -68,7 +68,7 @@ class Motion::EventDriven final : public Motion::Course {
   /// The contacts whose impacts come to an end so soon that they are at rest from now on.
   std::vector<Index> accumulating(const std::vector<Index>& closing) const;
   std::vector<Index> brought_to_rest(std::vector<Index> contacts);
-  bool may_stop_in_time(const std::vector<Index>& contacts);
+  bool may_stop_in_time(const std::vector<Index>& contacts, const std::vector<double>& weights);
   /// Impacts follow each other within the rounding of t.
   bool time_stands_still() const { return events_at_once_ > many_at_once; }
   static constexpr long many_at_once = 10;

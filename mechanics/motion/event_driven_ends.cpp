@@ -37,19 +37,27 @@ constexpr int most_stretches = 20;
 
 }  // namespace
 
-/// Whether contacts that exclude each other at an impact do so by no more than rounding of f tells: at speeds
-/// w with w² <= 2 f'' f they come to rest before f is below 0, as walls that close in on each other ever
-/// slower. f'' is that of the walls, q'' = 0.
-bool Motion::EventDriven::may_stop_in_time(const std::vector<Index>& contacts) {
+/// Whether contacts that exclude each other at an impact do so by no more than rounding tells. With weights
+/// w, Σ w_a u_a = 0, the sum of w_a f_a is, whatever the bodies do, how far apart the walls are; they close
+/// in at the speed c = -Σ w_a ∂f_a/∂t. Walls that close in ever slower come to rest before they meet if c² is
+/// at most twice how they slow down times what rounding leaves of the gap. Walls that do not close in exclude
+/// v+ by restitution alone, or by rates that are rounding.
+bool Motion::EventDriven::may_stop_in_time(const std::vector<Index>& contacts,
+                                           const std::vector<double>& weights) {
   const Vector second = -system.contact_rows(state, contacts).s;
+  double closing = 0, slowing = 0, gap = 0, asked = 0, rounding = 0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Index a = contacts[k];
-    const double rate = expansion_.drift(a),
-                 gap = roundings_of_closed * epsilon * expansion_.position_scale(a);
-    if (rate < -expansion_.rounding_of_rate(a) && !(rate * rate <= 2 * second[static_cast<Index>(k)] * gap))
-      return false;
+    const double w = weights[k], size = std::abs(w), rate = expansion_.rate(a);
+    const bool rebounds = options.impact_law == ImpactLaw::moreau && !is_two_sided(a) && rate < 0;
+    const double e = rebounds ? options.restitution[a] : 0;
+    closing -= w * expansion_.drift(a);
+    asked -= w * (1 + e) * rate;
+    slowing += w * second[static_cast<Index>(k)];
+    gap += size * roundings_of_closed * epsilon * expansion_.position_scale(a);
+    rounding += size * expansion_.rounding_of_rate(a);
   }
-  return true;
+  return closing > rounding ? closing * closing <= 2 * slowing * gap : asked <= rounding;
 }
 
 /// The least change of velocity after which contacts are at rest; of walls that close in not both are.

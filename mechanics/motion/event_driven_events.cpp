@@ -150,7 +150,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
       return stop_at_vanishing_gradient(a);
   std::vector<Index> excluded;
   for (const Index k : outcome.excluding) excluded.push_back(present[static_cast<std::size_t>(k)]);
-  if (!excluded.empty() && may_stop_in_time(excluded)) {
+  if (!excluded.empty() && may_stop_in_time(excluded, outcome.weights)) {
     brought_to_rest(present);
     return begin_arc(present, branches_after_jump(before_jump));
   }

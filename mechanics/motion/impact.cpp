@@ -52,8 +52,11 @@ convex::NearestPointProblem moreau_problem(const convex::Metric& A,
 
 ImpactOutcome excluded(const convex::Solution& solution) {
   ImpactOutcome outcome;
-  for (Index a = 0; a < solution.farkas.size(); ++a)
-    if (solution.farkas[a] != 0) outcome.excluding.push_back(a);
+  for (Index a = 0; a < solution.farkas.size(); ++a) {
+    if (solution.farkas[a] == 0) continue;
+    outcome.excluding.push_back(a);
+    outcome.weights.push_back(solution.farkas[a]);
+  }
   return outcome;
 }
 

@@ -21,12 +21,14 @@ struct ImpactContact {
 };
 
 /// What an impact does. No v+ exists when the contacts exclude each other: then `excluding` has indices of
-/// contacts, and the rest is empty; likewise when the law does not determine v+, which `undetermined` says.
+/// contacts, `weights` w, one each, with Σ w_a u_a = 0 and -Σ w_a (1 + e_a) f'_a(v-) > 0, and the rest is
+/// empty; likewise when the law does not determine v+, which `undetermined` says.
 struct ImpactOutcome {
   Vector change;   ///< v+ - v-: n
   Vector impulse;  ///< P, one a contact; exactly 0 where rounding hides the difference
   Vector rate;     ///< f'(v+), one a contact; exactly 0 where rounding hides the difference
   std::vector<Index> excluding = {};
+  std::vector<double> weights = {};
   std::string_view undetermined = {};
   std::string_view remark = {};  ///< what the data leave open
 };

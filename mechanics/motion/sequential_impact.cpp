@@ -56,6 +56,23 @@ Stroke stroke(const convex::Metric& A, const std::vector<ImpactContact>& contact
   return found;
 }
 
+/// A contact that closes at this rate where the two-sided ones hold its motion.
+ImpactOutcome excluded_by_two_sided(const convex::Metric& A, const std::vector<ImpactContact>& contacts,
+                                    std::size_t striking, const Vector& rates) {
+  std::vector<ImpactContact> together;
+  std::vector<Index> which;
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    if (!contacts[a].two_sided && a != striking) continue;
+    together.push_back(contacts[a]);
+    together.back().rate = rates[static_cast<Index>(a)];
+    which.push_back(static_cast<Index>(a));
+  }
+  ImpactOutcome excluded = moreau_impact(A, together);
+  if (excluded.excluding.empty()) return {{}, {}, {}, which, std::vector<double>(which.size(), 0)};
+  for (Index& k : excluded.excluding) k = which[static_cast<std::size_t>(k)];
+  return excluded;
+}
+
 }  // namespace
 
 ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
@@ -109,12 +126,7 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
             "first: the first of the file is taken";
     }
     const Stroke& by = strokes[striking];
-    if (!by.is_possible) {
-      ImpactOutcome excluded;
-      for (std::size_t a = 0; a < m; ++a)
-        if (contacts[a].two_sided || a == striking) excluded.excluding.push_back(static_cast<Index>(a));
-      return excluded;
-    }
+    if (!by.is_possible) return excluded_by_two_sided(A, contacts, striking, outcome.rate);
     const auto at = static_cast<Index>(striking);
     const double change = -(1 + contacts[striking].restitution) * outcome.rate[at];
     outcome.change += change * by.change;

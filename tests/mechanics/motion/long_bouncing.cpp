@@ -49,6 +49,32 @@ TEST_CASE("where the impacts between walls that close in end with the walls toge
   }
 }
 
+TEST_CASE("a body that is driven against a wall has no velocity, whichever way the drive is written") {
+  for (const std::string drive : {"x = 2*t", "-x = -2*t", "2*t = x", "-3*x = -6*t"})
+    for (const double place : {0.0, 1.0}) {
+      CAPTURE(drive);
+      CAPTURE(place);
+      const SystemText driven{
+          {"x"}, "x'^2/2", "", {}, {}, {}, {{"wall", "x <= " + std::to_string(place)}, {"drive", drive}}};
+      const Followed found = followed(driven, state({0}, {2}), 2, restitution(driven, 0.5));
+      CHECK(found.motion.status() == MotionStatus::infeasible);
+      CHECK(found.motion.excluding().size() == 2);
+      CHECK(found.end().t == doctest::Approx(place / 2).epsilon(1e-12));
+    }
+}
+
+TEST_CASE(
+    "a body in a slot without play has no velocity that rebounds from one side, and stays without rebound") {
+  const SystemText slot{{"x"}, "x'^2/2", "", {}, {}, {}, {{"left", "x >= 0"}, {"right", "x <= 0"}}};
+  // f'(v+) >= -e f'(v-) from the one side, f'(v+) >= 0 from the other.
+  CHECK(followed(slot, state({0}, {2}), 1, restitution(slot, 0.5)).motion.status() ==
+        MotionStatus::infeasible);
+  const Followed found = followed(slot, state({0}, {2}), 1, restitution(slot, 0));
+  CHECK(found.motion.status() == MotionStatus::done);
+  CHECK(found.end().v[0] == 0);
+  CHECK(found.motion.record().impacts == 1);
+}
+
 TEST_CASE("a floor that comes up to the ceiling ever slower lays the body there, and sinks again") {
   const SystemText touching{
       {"y"}, "y'^2/2", "", {}, {}, {}, {{"floor", "y >= 1 - (t - 1)^2"}, {"ceiling", "y <= 1"}}};
