@@ -7,8 +7,10 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/json_writer.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace cli::inline commands {
@@ -17,6 +19,38 @@ namespace {
 int wrong(const std::string& message) {
   std::fprintf(stderr, "moreau: %s\n", message.c_str());
   return static_cast<int>(Exit::wrong_input);
+}
+
+bool asks_for_json(int argc, char** argv) {
+  for (int k = 1; k < argc && std::string_view(argv[k]) != "--"; ++k)
+    if (std::string_view(argv[k]) == "--json") return true;
+  return false;
+}
+
+/// The problem file that a command line names, as far as it was read, rather one that is there; "" for none.
+std::string file_of(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands())
+    for (const char* name : {"FILE", "IN"}) {
+      const CLI::Option* option = command->get_option_no_throw(name);
+      if (option == nullptr || option->empty()) continue;
+      std::error_code none;
+      for (const std::string& file : option->results())
+        if (file == "-" || std::filesystem::exists(file, none)) return file;
+      return option->results().front();
+    }
+  return "";
+}
+
+/// What is wrong with the command line itself. Who reads JSON has it there too, in one object.
+int wrong_command(const CLI::App& app, bool json, const std::string& message) {
+  if (json) {
+    JsonWriter object;
+    object.begin_object().key("file").value(file_of(app)).key("status").value("error");
+    object.key("message").value(message).key("line").value(1).key("column").value(1);
+    std::puts(object.end_object().text().c_str());
+    std::fflush(stdout);
+  }
+  return wrong(message);
 }
 
 /// A message about a first argument that is no command, with the nearest one; "" when it is one, or an
@@ -66,6 +100,9 @@ std::string unexpected(const CLI::App& app) {
   for (const char* key : {"step", "samples", "restitution", "impact_law"})
     if (takes_settings && name == key)
       return has_none + "it is a key of the file, --set \"simulate." + key + "=…\"";
+  if (std::find(known.begin(), known.end(), name) != known.end())
+    return "--" + name + " stands before the command; write it behind, `moreau " + command.get_name() +
+           " … --" + name + "`";
   const std::string nearest = convex::nearest_name(name, known);
   return has_none + (nearest.empty() ? help_on(app) : "did you mean --" + nearest + "?");
 }
@@ -119,8 +156,10 @@ int answer(int argc, char** argv, const char* version) {
                          add_help,    add_completions})
     add(app, chosen);
 
+  const bool json = asks_for_json(argc, argv);
   if (argc > 1)
-    if (const std::string unknown = unknown_command(app, argv[1]); !unknown.empty()) return wrong(unknown);
+    if (const std::string unknown = unknown_command(app, argv[1]); !unknown.empty())
+      return wrong_command(app, json, unknown);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -132,9 +171,11 @@ int answer(int argc, char** argv, const char* version) {
   } catch (const CLI::ParseError& error) {
     if (argc < 2) std::fputs(app.help().c_str(), stderr);
     const std::string message = unexpected(app);
-    return wrong(message.empty() ? in_own_words(error.what()) + "; " + help_on(app) : message);
+    return wrong_command(app, json,
+                         message.empty() ? in_own_words(error.what()) + "; " + help_on(app) : message);
   }
-  if (const std::string message = overwritten(app); !message.empty()) return wrong(message);
+  if (const std::string message = overwritten(app); !message.empty())
+    return wrong_command(app, json, message);
   try {
     return static_cast<int>(chosen());
   } catch (const std::exception& error) {

@@ -77,6 +77,33 @@ TEST_CASE("what the program never heard of exits two and is named") {
   expect_wrong({"methods", "extra"}, {"extra"});
 }
 
+TEST_CASE("who asks for JSON has what is wrong with the command line in one object, with the file it names") {
+  const Folder folder;
+  const std::string file = folder.write("problem.toml", point_on_floor());
+  const auto expect_object = [](const std::vector<std::string>& arguments, const std::string& named,
+                                const std::string& word) {
+    const Outcome outcome = run(arguments);
+    CAPTURE(outcome.out);
+    CHECK(outcome.code == 2);
+    const Json object = Json::parse(outcome.out);  // throws beside anything else
+    CHECK(object.at("status") == "error");
+    CHECK(object.at("file") == named);
+    CHECK(object.at("message").get<std::string>().find(word) != std::string::npos);
+    CHECK(object.at("line") == 1);
+    CHECK(object.at("column") == 1);
+    CHECK(outcome.err == "moreau: " + object.at("message").get<std::string>() + "\n");
+  };
+  expect_object({"sweep", "--json", file}, file, "--over is required");
+  expect_object({"solve", file, "--json", "--tolerance", "0"}, file, "--tolerance");
+  expect_object({"solve", file, "--json", "--tolerance"}, file, "--tolerance");
+  expect_object({"solve", file, file, "--json", "--quietly"}, file, "--quiet");
+  expect_object({"derive", "--method", "exact", file, "--json"}, file, "--method");
+  expect_object({"convert", file, "--json"}, file, "OUT");
+  expect_object({"solve", "--json"}, "", "FILE");
+  expect_object({"slove", file, "--json"}, "", "solve");
+  expect_object({"--json", "solve", file}, file, "behind");
+}
+
 TEST_CASE("a tolerance that is no positive finite number is refused") {
   const Folder folder;
   const std::string file = folder.write("problem.toml", point_on_floor());
