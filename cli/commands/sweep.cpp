@@ -85,11 +85,9 @@ struct SweepSummary {
 class Sweep {
  public:
   Sweep(const SweepOptions& options, TomlValue document) : options_(options) {
+    ranges_ = parse_sweep_ranges(options.over);
     std::vector<std::string> keys;
-    for (const std::string& text : options.over) {
-      ranges_.push_back(parse_sweep_range(text, most_values, 2));
-      keys.push_back(ranges_.back().key);
-    }
+    for (const SweepRange& range : ranges_) keys.push_back(range.key);
     locates_ = ranges_.size() == 1 && ranges_.front().is_range;
     unsigned threads = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
     threads = std::max(1U, threads);

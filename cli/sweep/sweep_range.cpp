@@ -70,4 +70,16 @@ SweepRange parse_sweep_range(const std::string& text, double most, double least)
   return range;
 }
 
+std::vector<SweepRange> parse_sweep_ranges(const std::vector<std::string>& texts) {
+  std::vector<SweepRange> ranges;
+  for (const std::string& text : texts) {
+    SweepRange next = parse_sweep_range(text, most_values, 2);
+    for (const SweepRange& range : ranges)
+      if (range.key == next.key)
+        refuse_range(text, next.key + " has its values already; give one --over for each key");
+    ranges.push_back(std::move(next));
+  }
+  return ranges;
+}
+
 }  // namespace cli::inline sweeps

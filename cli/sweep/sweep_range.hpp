@@ -19,4 +19,7 @@ inline constexpr double most_values = 1e9;
 /// for more values than `most`, and of a range for fewer than `least`.
 SweepRange parse_sweep_range(const std::string& text, double most = most_values, double least = 1);
 
+/// Ranges of two values at least, of one key each. Throws InvalidInput, also for a key that is there twice.
+std::vector<SweepRange> parse_sweep_ranges(const std::vector<std::string>& texts);
+
 }  // namespace cli::inline sweeps

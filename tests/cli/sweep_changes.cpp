@@ -153,3 +153,11 @@ TEST_CASE("the gap of a contact, its rates and the state are watched beside its 
   for (std::size_t row = 0; row < 2; ++row)
     for (std::size_t k = 0; k < 6; ++k) CHECK(table[row].at(words[6 + 2 * k]) == expected[row][k]);
 }
+
+TEST_CASE("a sweep refuses a key that two ranges vary") {
+  const Folder folder;
+  const std::string file = folder.write("swept.toml", masses("x = \"P\"\n", "x = 0, y = 1"));
+  const tests::Outcome outcome = run({"sweep", file, "--over", "P=0:1:2", "--over", "P=3,4"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("--over P=3,4: P has its values already") != std::string::npos);
+}
