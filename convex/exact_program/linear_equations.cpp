@@ -14,6 +14,11 @@ namespace {
 /// Full systems from this size on are lifted modulo a prime (Dixon 1982).
 constexpr std::size_t least_lifted = 24;
 
+/// Of an equation those unknowns may be eliminated whose coefficients are at least such a part of its
+/// largest: through a coefficient that all but cancelled a free unknown moves the others far from their guess
+/// (threshold pivoting: Duff, Erisman, Reid 1986).
+constexpr double part_of_largest = 0.1;
+
 std::size_t nonzeros(const std::vector<ExactEquation>& equations) {
   return std::accumulate(
       equations.begin(), equations.end(), std::size_t{0},
@@ -141,12 +146,18 @@ class Elimination {
     return true;
   }
 
+  /// Of the unknowns with a coefficient of size the one in the fewest equations.
   std::size_t rarest(const ExactRow& row) const {
-    return std::min_element(row.begin(), row.end(),
-                            [&](const auto& a, const auto& b) {
-                              return in_rows_[a.first].size() < in_rows_[b.first].size();
-                            })
-        ->first;
+    std::vector<double> sizes;
+    for (const auto& [j, value] : row) sizes.push_back(std::abs(nearest_double(value)));
+    const double least = part_of_largest * *std::max_element(sizes.begin(), sizes.end());
+    std::size_t best = row.begin()->first, fewest = static_cast<std::size_t>(-1), k = 0;
+    for (const auto& [j, value] : row)
+      if (sizes[k++] >= least && in_rows_[j].size() < fewest) {
+        best = j;
+        fewest = in_rows_[j].size();
+      }
+    return best;
   }
 
   void subtract(const ExactEquation& chosen, std::size_t pivot, std::size_t b) {

@@ -280,3 +280,18 @@ TEST_CASE("a certified prox whose equations depend on each other is answered, pr
   CHECK(answer["status"] != "error");
   CHECK(answer["x"] == Json::array({0.625, -3, 1}));
 }
+
+TEST_CASE(
+    "what is proved of a plane is close where two columns of its equations all but depend on each other") {
+  // The columns of the first two entries are opposite, but for the last digit of the second row.
+  const std::string plane =
+      "indicator(affine([[-0.35, 0.35, -1.45, 0.75], [-0.85, 0.8500000000000001, -2.35, 1.15]], [2.5, 4.7]))";
+  for (const std::string metric :
+       {"diagonal [1, 1, 1, 1]", "[[2, 1, 0, 0], [1, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"}) {
+    const Json answer =
+        json_of({"prox", plane, "--at", "[-1.3, -1, -0.5, 3]", "--certify", "--json", "--metric", metric});
+    CHECK(answer["status"] == "solved");
+    CHECK(answer["certificate"]["level"] == "exact");
+    CHECK(answer["certificate"]["error_bound"].get<double>() <= 1e-13);
+  }
+}
