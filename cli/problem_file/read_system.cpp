@@ -1,4 +1,5 @@
 #include <cmath>
+#include <iterator>
 
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/parameter_values.hpp"
@@ -126,9 +127,19 @@ std::string with_suffix(const std::string& name, const std::string& suffix) {
   return name.substr(0, index) + suffix + name.substr(index);
 }
 
-/// `[system.looseness]`: two one-sided constraints for each element, -gap/2 <= a - b <= gap/2.
-void add_looseness(SystemProblem& problem, const TomlValue* table) {
+bool stands_before(const TomlValue& system, const std::string& first, const std::string& second) {
+  for (const TomlEntry& entry : system.table)
+    if (entry.key == first || entry.key == second) return entry.key == first;
+  return false;
+}
+
+/// `[system.looseness]`: two one-sided constraints for each element, -gap/2 <= a - b <= gap/2, in the order
+/// of the file.
+void add_looseness(SystemProblem& problem, const TomlValue& system) {
+  const TomlValue* table = system.find("looseness");
   if (table == nullptr) return;
+  auto& constraints = problem.system.constraints;
+  auto at = stands_before(system, "looseness", "constraints") ? constraints.begin() : constraints.end();
   for (const TomlEntry& entry : require_table(*table, "system.looseness").table) {
     const std::string where = "system.looseness." + shown(entry.key);
     const TomlValue& element = require_table(entry.value, where);
@@ -149,8 +160,9 @@ void add_looseness(SystemProblem& problem, const TomlValue* table) {
     const std::string difference = "(" + a.text + ") - (" + b.text + ")";
     const auto add = [&](const char* suffix, const std::string& relation) {
       const std::string name = with_suffix(entry.key, suffix);
-      problem.system.constraints.push_back(
-          {{name, entry.place}, {difference + relation + "(" + play.text + ")/2", a.begin}});
+      const mechanics::NamedText bound{{name, entry.place},
+                                       {difference + relation + "(" + play.text + ")/2", a.begin}};
+      at = std::next(constraints.insert(at, bound));
       if (const TomlValue* e = element.find("restitution"))
         problem.restitutions.push_back(read_restitution({name, entry.place}, *e, where + ".restitution"));
     };
@@ -173,8 +185,7 @@ SystemProblem read_system(const TomlValue& document, const std::string& director
     return read_table_points(file.empty() || file[0] == '/' || directory.empty() ? file
                                                                                  : directory + "/" + file);
   };
-  if (is_whole)
-    is_read = mistakes.gather([&] { add_looseness(problem, system.find("looseness")); }) && is_read;
+  if (is_whole) is_read = mistakes.gather([&] { add_looseness(problem, system); }) && is_read;
   if (state == nullptr && !is_read) return problem;  // it may be what stands in another table
   mistakes.gather([&] {
     if (state == nullptr)

@@ -167,6 +167,25 @@ TEST_CASE("a restitution may be an expression in the parameters") {
   CHECK(speed("restitution = { mesh_upper = \"e\" }", {"--set", "e=0.25"}) == -0.25);
 }
 
+TEST_CASE("constraints of looseness stand where the file has them, before or behind the others") {
+  const std::string loose =
+                        "[system.looseness]\nb = { between = [\"x\", \"0\"], gap = 2 }\n"
+                        "a = { between = [\"x\", \"1\"], gap = 4 }\n",
+                    others = "[system.constraints]\nz = \"x <= 5\"\n";
+  const auto names = [](const std::string& tables) {
+    const Folder folder;
+    const std::string file =
+        folder.write("loose.toml", "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n" + tables +
+                                       "[state]\nposition = { x = 0 }\n");
+    std::vector<std::string> found;
+    const Json answer = Json::parse(run({"solve", "--json", file}).out);
+    for (const auto& [name, constraint] : answer.at("constraints").items()) found.push_back(name);
+    return found;
+  };
+  CHECK(names(loose + others) == std::vector<std::string>{"b_lower", "b_upper", "a_lower", "a_upper", "z"});
+  CHECK(names(others + loose) == std::vector<std::string>{"z", "b_lower", "b_upper", "a_lower", "a_upper"});
+}
+
 TEST_CASE("looseness is two constraints, with its own restitution unless [simulate] names them") {
   const auto energy = [](const std::string& simulate) {
     const Folder folder;
