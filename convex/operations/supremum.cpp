@@ -32,8 +32,8 @@ constexpr double settled = 1e-12, small = 1e-3;
 /// 1/t grows by `power`; on the way to a maximum far away the increases grow for some steps only.
 constexpr double growing = 1.3;
 constexpr int growth_steps = 8;
-/// Beyond, a look along each costs more than the search, and so does one between each two.
-constexpr Index most_axes = 64, few_axes = 4;
+/// Beyond, a look along each costs more than the search.
+constexpr Index most_axes = 64;
 
 /// So much farther out than it began.
 constexpr double farther = 1e12;
@@ -107,28 +107,29 @@ bool recedes_far_out(const Function& f, const Vector& v) {
   return false;
 }
 
-/// The axes, and between and beside each two of them where they are few: a domain may be thin there.
-std::vector<Vector> directions_beside(Index n) {
-  std::vector<Vector> found;
-  for (Index i = 0; i < n; ++i) {
-    found.push_back(Vector::Unit(n, i));
-    for (Index j = 0; j < n && n <= few_axes; ++j)
-      for (const double part : {1.0, -1.0, 1e-3, -1e-3})
-        if (j != i) found.push_back(Vector::Unit(n, i) + part * Vector::Unit(n, j));
-  }
-  return found;
-}
-
-/// Is v·x - f(x) more than `bound` beside x, or not known there?
+/// Is v·x - f(x) more than `bound` beside x along an axis, or not known there?
 bool is_surpassed(const Function& f, const Vector& v, const Vector& x, double bound) {
   if (v.size() > most_axes) return false;
-  for (const Vector& direction : directions_beside(v.size()))
+  for (Index i = 0; i < v.size(); ++i)
     for (const double part : {1e-6, -1e-6, 1e-3, -1e-3, 1.0, -1.0}) {
-      const Vector beside = x + part * std::max(1.0, x.norm()) * direction;
+      const Vector beside = x + part * std::max(1.0, x.norm()) * Vector::Unit(v.size(), i);
       const Value value = f.evaluate(beside);
       if (!std::isfinite(value.error) || v.dot(beside) - value.value - value.error > bound) return true;
     }
   return false;
+}
+
+/// What the prox in t times the plain metric leaves open of v·x - f(x), whose slopes are of the sizes of v
+/// and of the covector. One that was cut short may stand still where it began: it is as far from where it
+/// should be as its bound tells. Where that tells nothing, a subgradient s at x bounds f, f(u) >= f(x) + s·(u
+/// - x).
+double left_by(const Prox& at, const Function& f, const Vector& v, double t) {
+  if (at.status == Status::solved) return 0;
+  if (std::isfinite(at.error_bound)) return (v.norm() + at.v.norm()) * at.error_bound / std::sqrt(t);
+  const auto slope = f.subgradient(at.x);
+  if (!slope || slope->size() != v.size()) return infinity;
+  const Vector rest = v - *slope;
+  return rest.isZero(0) ? 0 : std::max(0.0, f.node().domain_support(rest) - rest.dot(at.x));
 }
 
 /// A point at which v·x - f(x) is more than `bound`, far out along x, where steps that a set keeps beside 0
@@ -203,15 +204,11 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
     if (bound + 4 * rounding < highest) break;  // the prox did not get there
     highest = std::max(highest, bound - rounding);
     const double moved = (at.x - x).norm(), increase = bound - last;
-    const double error = rounding + t * moved * at.x.norm() + std::abs(increase);
+    const double error = rounding + t * moved * at.x.norm() + std::abs(increase) + left_by(at, f, v, t);
     const double enough = settled * std::max(std::abs(bound), small) + rounding;
     // A step that cannot move x as far as x is long shows nothing.
     const bool free = v.norm() == 0 || t * at.x.norm() <= v.norm();
     const bool shrinking = std::abs(increase) <= std::max(0.5 * std::abs(before), enough);
-    // A prox cut short where it began stands still as if the values had settled.
-    const bool stuck =
-        at.status != Status::solved && moved == 0 && is_surpassed(f, v, at.x, bound + rounding);
-    if (stuck) return {{bound, infinity}, false};
     if (free && shrinking && error < best.error) {
       best = {bound, error};
       x_of_best = at.x;

@@ -12,8 +12,8 @@ namespace convex::inline operations {
 ///
 /// Of one entry it is found by the chords around it, where there are points on both sides with lower values:
 /// see `line_supremum`. Elsewhere the value is a lower bound; the error is what the last step shows to be
-/// left, t_k |x_(k+1) - x_k| |x_k|, with its increase and the rounding of f(x_k); infinite where a prox
-/// stands still beside more.
+/// left, t_k |x_(k+1) - x_k| |x_k|, with its increase, the rounding of f(x_k) and what the prox leaves open
+/// of x_k; infinite where there is more beside it.
 ///
 /// +inf is returned where it is proved: f∞(d) < v·d for a direction d, the axes, v, or where x_k and its last
 /// step went (Rockafellar 1970, Theorem 8.5). Otherwise the error is infinite where the lower bounds do not

@@ -46,6 +46,40 @@ TEST_CASE("a value is open where the work ends, however thin the domain of the c
   }
 }
 
+TEST_CASE(
+    "a value is open where the work ends on a cone so thin that no point beside its tip is seen in it") {
+  struct Question {
+    const char* f;
+    Vector v;
+    double least;  // v·x - f(x) at a point of the cone
+    double part;
+  };
+  const Question questions[] = {
+      // At x = 4000 (-2, -1, 3, 0.5).
+      {"sum(precompose(epigraph(norm2()), [[82,-16,48,8],[-16,106,24,4],[48,24,42,-12],[8,4,-12,112],"
+       "[-2,-1,3,0.5]]), total_variation(), log_sum_exp())",
+       Vector{{-3, -1, 5.5, -0.3125}}, 10000, 1e-5},
+      // At x = (0, 2, 0.5, -2).
+      {"pointwise_max(sum(precompose(epigraph(norm1()), "
+       "[[1107296256,0,0,0],[0,570425344,-134217728,536870912],[0,-134217728,1073741824,134217728],"
+       "[0,536870912,134217728,570425344],[0,2,0.5,-2]]), norm_inf()), log_sum_exp())",
+       Vector{{0.18621326564823665, 2.5061801362296188, 0.7391025660167622, -1.9314959678946173}}, 6, 1e-2},
+      // At x = (-2, 1, -1.5) / |(-2, 1, -1.5)|.
+      {"sum(precompose(epigraph(norm_inf()), [[53248,32768,-49152],[32768,102400,24576],[-49152,24576,81920],"
+       "[-2,1,-1.5]]), distance(ball2(1), 3))",
+       Vector{{-2.2283440581246223, 1.1141720290623112, -1.6712580435934667}}, 2.9, 1e-7},
+  };
+  for (const Question& asked : questions) {
+    const Function g = samples::function(asked.f, asked.v.size()).conjugate();
+    const WorkLimit question(asked.part);
+    const Value found = g.evaluate(asked.v);
+    CAPTURE(asked.f);
+    CAPTURE(found.value);
+    CAPTURE(found.error);
+    CHECK(found.value + found.error >= asked.least);
+  }
+}
+
 TEST_CASE("the conjugate of a maximum at a slope that is almost 0 is no less than its lower bounds") {
   const std::string text = "pointwise_max(" + std::string(mean_of_two) + ", tilt(constant(1), [3]))";
   const Function f = samples::function(text, 1), g = f.conjugate();
