@@ -160,6 +160,8 @@ GraphValue evaluate(const GraphForm& given, const Vector& x) {
   if (indicator) {
     found.value = f.constant;
     found.v = Vector::Zero(f.n);
+    if (largest_miss_beyond_rounding(problem, point, around_w) > membership_tolerance)
+      found.error_bound = infinity;
     return found;
   }
   found.v = slope.head(f.n);

@@ -1,6 +1,7 @@
 #include "convex/composite/saddle_problem.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace convex::inline composite {
@@ -150,11 +151,14 @@ SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& 
   return problem;
 }
 
-double largest_miss_of_rows(const SaddleProblem& problem, const SaddlePoint& point, double around) {
+namespace {
+
+double largest_miss(const SaddleProblem& problem, const SaddlePoint& point, double around,
+                    const std::function<bool(const SaddleTerm&)>& counts) {
   const SparseRows rows = problem.M;
   double worst = 0;
   for (const SaddleTerm& term : problem.terms) {
-    if (!term.separable || !term.f->facts().indicator) continue;
+    if (!term.f->facts().indicator || !counts(term)) continue;
     for (Index i = term.first; i < term.first + term.rows; ++i) {
       double size = std::abs(problem.b[i]), largest = 0;
       for (SparseRows::InnerIterator entry(rows, i); entry; ++entry) {
@@ -166,6 +170,18 @@ double largest_miss_of_rows(const SaddleProblem& problem, const SaddlePoint& poi
     }
   }
   return worst;
+}
+
+}  // namespace
+
+double largest_miss_of_rows(const SaddleProblem& problem, const SaddlePoint& point, double around) {
+  return largest_miss(problem, point, around, [](const SaddleTerm& term) { return term.separable; });
+}
+
+double largest_miss_beyond_rounding(const SaddleProblem& problem, const SaddlePoint& point, double around) {
+  constexpr double roundings = 64;
+  const double rounding = roundings * unit_roundoff / membership_tolerance * around;
+  return largest_miss(problem, point, rounding, [](const SaddleTerm&) { return true; });
 }
 
 Vector prox_of_terms(const SaddleProblem& problem, const Vector& t, const Vector& D) {

@@ -70,6 +70,10 @@ double solution_size(const SaddleProblem&, const SaddlePoint&);
 /// How far M ξ + b is from u in a row, as a part of the sizes of that row: of rows that hold each by itself,
 /// equations and bounds, whose units may be far apart. `around`: the size of ξ.
 double largest_miss_of_rows(const SaddleProblem&, const SaddlePoint&, double around);
+/// The same of all rows of sets, `around` counted by its rounding alone. Above the membership tolerance a row
+/// is open: what counts as nothing beside its largest entry may be all of it, where other entries are far
+/// smaller.
+double largest_miss_beyond_rounding(const SaddleProblem&, const SaddlePoint&, double around);
 
 /// prox_D of every term at its part of t.
 Vector prox_of_terms(const SaddleProblem&, const Vector& t, const Vector& D);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/functions/decomposition.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/gamma0/work_limit.hpp"
 #include "tests/convex/operations/samples.hpp"
@@ -78,6 +79,35 @@ TEST_CASE(
     CAPTURE(found.error);
     CHECK(found.value + found.error >= asked.least);
   }
+}
+
+TEST_CASE("a point beside a cone thinner than the membership tolerance is split on its axis") {
+  const Vector u{{0.5, 2, 3}};
+  const std::string cone =
+      "precompose(second_order_cone(), "
+      "[[1744830464,-134217728,-201326592],[-134217728,1241513984,-805306368],"
+      "[-201326592,-805306368,570425344],[0.5,2,3]])";
+  struct Question {
+    const char* norm;
+    double height;  // of z = (0, 0, height)
+    double along;   // the norm of u
+  };
+  for (const Question& asked :
+       {Question{"norm2()", 2, u.norm()}, {"norm_inf()", 1.5, 3}, {"norm1()", 2, 5.5}}) {
+    CAPTURE(asked.norm);
+    const Function f = samples::function("sum(" + cone + ", " + asked.norm + ")", 3);
+    const Vector z{{0, 0, asked.height}};
+    const auto split = convex::decompose(f, z, convex::Metric::identity(3));
+    const Vector x = (z.dot(u) - asked.along) / u.squaredNorm() * u;
+    CHECK(split.status == convex::Status::solved);
+    CHECK((split.x.x - x).norm() <= 1e-8);
+    const Value outside = f.conjugate().evaluate(z);
+    CHECK((std::isinf(outside.value) || std::isinf(outside.error)));
+  }
+  const Function f = samples::function(
+      "sum(precompose(second_order_cone(), [[1000000000000,-1000000000000],[1,1]]), norm1())", 2);
+  const Value outside = f.conjugate().evaluate(Vector{{1, 3}});
+  CHECK((std::isinf(outside.value) || std::isinf(outside.error)));
 }
 
 TEST_CASE("the conjugate of a maximum at a slope that is almost 0 is no less than its lower bounds") {
