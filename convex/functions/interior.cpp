@@ -14,8 +14,10 @@ bool is_well_inside(const Function& f, const Vector& x, double size) {
   const double step = far_more * std::sqrt(static_cast<double>(x.size())) * size;
   if (!std::isfinite(x.norm() + step)) return false;
   for (Index i = 0; i < x.size(); ++i)
-    for (const double side : {-step, step})
-      if (!std::isfinite(f(x + side * Vector::Unit(x.size(), i)))) return false;
+    for (const double side : {-step, step}) {
+      const Value beside = f.evaluate(x + side * Vector::Unit(x.size(), i));
+      if (!std::isfinite(beside.value) || !std::isfinite(beside.error)) return false;
+    }
   return true;
 }
 

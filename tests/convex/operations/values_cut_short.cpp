@@ -110,6 +110,17 @@ TEST_CASE("a point beside a cone thinner than the membership tolerance is split 
   CHECK((std::isinf(outside.value) || std::isinf(outside.error)));
 }
 
+TEST_CASE("the bound of a split holds where values beside the domain of the conjugate are not known") {
+  // x = 2^-41 (0.5, 2, 3), z = x + (0, 0, 1), whose conjugate is +inf.
+  const Function f = samples::function(
+      "sum(precompose(second_order_cone(), [[1744830464,-134217728,-201326592],[-134217728,1241513984,"
+      "-805306368],[-201326592,-805306368,570425344],[0.5,2,3]]), norm_inf())",
+      3);
+  const Vector x = std::ldexp(1.0, -41) * Vector{{0.5, 2, 3}};
+  const auto split = convex::decompose(f, x + Vector{{0, 0, 1}}, convex::Metric::identity(3));
+  CHECK((split.x.x - x).norm() <= split.error_bound);
+}
+
 TEST_CASE("the conjugate of a maximum at a slope that is almost 0 is no less than its lower bounds") {
   const std::string text = "pointwise_max(" + std::string(mean_of_two) + ", tilt(constant(1), [3]))";
   const Function f = samples::function(text, 1), g = f.conjugate();
