@@ -88,12 +88,10 @@ void add_symbols(py::module_& module) {
   py::class_<Formula>(module, "Formula", R"(A function of one variable by cases, exactly or by rules.
 
 Called with a number, or an array of them, it gives the values there, inf outside of all cases.)")
-      .def(
-          "__call__",
-          py::vectorize([](Formula& formula, double at) {
-            return evaluate(formula.cases, formula.variable, at);
-          }),
-          py::arg("at"))
+      .def("__call__", py::vectorize([](Formula& formula, double at) {
+             return evaluate(formula.cases, formula.variable, at);
+           }),
+           py::arg("at"))
       .def_property_readonly("text", text_of, "the cases, a line each")
       .def_property_readonly(
           "latex",
