@@ -226,7 +226,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   }
   if (options.impact_laws) {
     const std::string laws = options.json ? impact_laws_json(followed) + "\n" : impact_laws_text(followed);
-    return {motion.record().first_impact ? Exit::solved : Exit::inaccurate, laws};
+    return {impact_laws_exit(followed), laws};
   }
   followed.interrupted = interrupted != 0 && motion.state().t < until;
   if (const mechanics::Index most = motions_beside(*system, motion); !followed.interrupted && most > 0)

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cli/json_writer.hpp"
 #include "cli/motion_files.hpp"
@@ -65,6 +67,15 @@ std::vector<std::string> contact_names(const FollowedMotion& followed, const Imp
 
 }  // namespace
 
+Exit impact_laws_exit(const FollowedMotion& followed) {
+  const auto& scene = followed.motion.record().first_impact;
+  if (!scene) return Exit::inaccurate;
+  const bool is_excluded = std::all_of(
+      std::begin(mechanics::impact_laws), std::end(mechanics::impact_laws),
+      [&](ImpactLaw law) { return !mechanics::impact(scene->A, scene->contacts, law).excluding.empty(); });
+  return is_excluded ? Exit::no_solution : Exit::solved;
+}
+
 std::string impact_laws_json(const FollowedMotion& followed) {
   JsonWriter json;
   json.begin_object().key("file").value(followed.file).key("kind").value("system");
@@ -74,7 +85,11 @@ std::string impact_laws_json(const FollowedMotion& followed) {
     return json.end_object().text();
   }
   const std::vector<std::string> contacts = contact_names(followed, *scene);
-  json.key("status").value("done").key("t").value(scene->t).key("velocity_before");
+  json.key("status")
+      .value(impact_laws_exit(followed) == Exit::solved ? "done" : "infeasible")
+      .key("t")
+      .value(scene->t)
+      .key("velocity_before");
   json.numbers(followed.system.coordinates(), scene->velocity).key("kinetic_before").value(scene->kinetic);
   json.key("laws").begin_object();
   for (const ImpactLaw law : mechanics::impact_laws) {

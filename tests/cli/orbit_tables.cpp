@@ -123,6 +123,21 @@ TEST_CASE("where Moreau's law leaves the impulses open, those of least norm are 
   CHECK(one["laws"]["moreau"]["impulses_unique"] == true);
 }
 
+TEST_CASE("where no law of impact has a velocity, their table says infeasible, as the motion does") {
+  const Folder folder;
+  const std::string file = folder.write(
+      "d.toml",
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n[system.constraints]\nwall = \"x <= 0\"\n"
+      "drive = \"x = 2*t\"\n[state]\nposition = { x = 0 }\nvelocity = { x = 2 }\n[simulate]\nuntil = 1\n");
+  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--impact-laws"}}) {
+    std::vector<std::string> asked{"simulate", "--json", file};
+    asked.insert(asked.end(), options.begin(), options.end());
+    const auto told = run(asked);
+    CHECK(told.code == 1);
+    CHECK(OrbitJson::parse(told.out)["status"] == "infeasible");
+  }
+}
+
 TEST_CASE(
     "where a law leaves the impulses of redundant contacts open, those of least norm are shown, and it is "
     "said") {
