@@ -224,10 +224,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
         of_crowd = meet_crowd(motion, crowd, way.is_open, (until - state.t) / chosen.step);
     }
   }
-  if (options.impact_laws) {
-    const std::string laws = options.json ? impact_laws_json(followed) + "\n" : impact_laws_text(followed);
-    return {impact_laws_exit(followed), laws};
-  }
+  if (options.impact_laws) return impact_laws_answer(followed, options.json);
   followed.interrupted = interrupted != 0 && motion.state().t < until;
   if (const mechanics::Index most = motions_beside(*system, motion); !followed.interrupted && most > 0)
     followed.growth = mechanics::rounding_growth(*system, state, chosen, motion, most);

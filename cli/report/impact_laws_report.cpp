@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "cli/json_writer.hpp"
 #include "cli/motion_files.hpp"
-#include "cli/report/answer.hpp"
 #include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 #include "mechanics/motion/impulses.hpp"
@@ -65,36 +63,40 @@ std::vector<std::string> contact_names(const FollowedMotion& followed, const Imp
   return chosen;
 }
 
-}  // namespace
+/// In the order of `mechanics::impact_laws`.
+using Outcomes = std::vector<LawOutcome>;
 
-Exit impact_laws_exit(const FollowedMotion& followed) {
-  const auto& scene = followed.motion.record().first_impact;
-  if (!scene) return Exit::inaccurate;
-  const bool is_excluded = std::all_of(
-      std::begin(mechanics::impact_laws), std::end(mechanics::impact_laws),
-      [&](ImpactLaw law) { return !mechanics::impact(scene->A, scene->contacts, law).excluding.empty(); });
+Outcomes outcomes_of(const ImpactScene& scene) {
+  Outcomes outcomes;
+  for (const ImpactLaw law : mechanics::impact_laws) outcomes.push_back(outcome_of(scene, law));
+  return outcomes;
+}
+
+Exit exit_of(const Outcomes& outcomes) {
+  const bool is_excluded = std::all_of(outcomes.begin(), outcomes.end(),
+                                       [](const LawOutcome& outcome) { return !outcome.excluding.empty(); });
   return is_excluded ? Exit::no_solution : Exit::solved;
 }
 
-std::string impact_laws_json(const FollowedMotion& followed) {
+std::string impact_laws_json(const FollowedMotion& followed, const ImpactScene* scene,
+                             const Outcomes& outcomes) {
   JsonWriter json;
   json.begin_object().key("file").value(followed.file).key("kind").value("system");
-  const auto& scene = followed.motion.record().first_impact;
-  if (!scene) {
+  if (scene == nullptr) {
     json.key("status").value("stopped").key("why").value("there is no impact before the end");
-    return json.end_object().text();
+    return json.end_object().text() + "\n";
   }
   const std::vector<std::string> contacts = contact_names(followed, *scene);
   json.key("status")
-      .value(impact_laws_exit(followed) == Exit::solved ? "done" : "infeasible")
+      .value(exit_of(outcomes) == Exit::solved ? "done" : "infeasible")
       .key("t")
       .value(scene->t)
       .key("velocity_before");
   json.numbers(followed.system.coordinates(), scene->velocity).key("kinetic_before").value(scene->kinetic);
   json.key("laws").begin_object();
-  for (const ImpactLaw law : mechanics::impact_laws) {
-    const LawOutcome outcome = outcome_of(*scene, law);
-    json.key(mechanics::name(law)).begin_object();
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    const LawOutcome& outcome = outcomes[k];
+    json.key(mechanics::name(mechanics::impact_laws[k])).begin_object();
     if (const std::string why = trouble(followed, *scene, outcome); !why.empty()) {
       json.key("why").value(why).end_object();
       continue;
@@ -106,27 +108,26 @@ std::string impact_laws_json(const FollowedMotion& followed) {
     if (!outcome.remark.empty()) json.key("remark").value(outcome.remark);
     json.end_object();
   }
-  return json.end_object().end_object().text();
+  return json.end_object().end_object().text() + "\n";
 }
 
-std::string impact_laws_text(const FollowedMotion& followed) {
+std::string impact_laws_text(const FollowedMotion& followed, const ImpactScene* scene,
+                             const Outcomes& outcomes) {
   std::string text = heading(followed.title, followed.file);
-  const auto& scene = followed.motion.record().first_impact;
-  if (!scene) return text + fmt::format("There is no impact before t = {}.\n", followed.motion.state().t);
+  if (scene == nullptr)
+    return text + fmt::format("There is no impact before t = {}.\n", followed.motion.state().t);
   text += fmt::format("The first impact is at t = {}; T before it is {}.\n\n", scene->t,
                       number_text(scene->kinetic));
   std::vector<std::string> head{"", "before"};
-  std::vector<LawOutcome> outcomes;
   std::string said;
-  for (const ImpactLaw law : mechanics::impact_laws) {
-    head.emplace_back(mechanics::name(law));
-    outcomes.push_back(outcome_of(*scene, law));
-    std::string why = trouble(followed, *scene, outcomes.back());
-    if (why.empty()) why = std::string(outcomes.back().remark);
-    if (!why.empty()) said += std::string(mechanics::name(law)) + ": " + why + ".\n";
-    if (!outcomes.back().has_one_impulse)
-      said += std::string(mechanics::name(law)) +
-              ": v+ is unique, P is not: others give the same v+; these have the least norm.\n";
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    const std::string law = mechanics::name(mechanics::impact_laws[k]);
+    head.push_back(law);
+    std::string why = trouble(followed, *scene, outcomes[k]);
+    if (why.empty()) why = std::string(outcomes[k].remark);
+    if (!why.empty()) said += law + ": " + why + ".\n";
+    if (!outcomes[k].has_one_impulse)
+      said += law + ": v+ is unique, P is not: others give the same v+; these have the least norm.\n";
   }
   TextTable table(head);
   const auto add = [&](const std::string& what, const std::string& before, auto&& number) {
@@ -146,6 +147,16 @@ std::string impact_laws_text(const FollowedMotion& followed) {
     return without_rounding(kinetic_after(*scene, outcome), scene->kinetic);
   });
   return text + table.text() + (said.empty() ? "" : "\n" + said);
+}
+
+}  // namespace
+
+Answer impact_laws_answer(const FollowedMotion& followed, bool json) {
+  const auto& first = followed.motion.record().first_impact;
+  const ImpactScene* scene = first ? &*first : nullptr;
+  const Outcomes outcomes = first ? outcomes_of(*first) : Outcomes{};
+  return {first ? exit_of(outcomes) : Exit::inaccurate,
+          json ? impact_laws_json(followed, scene, outcomes) : impact_laws_text(followed, scene, outcomes)};
 }
 
 }  // namespace cli::inline reports
