@@ -73,6 +73,24 @@ Fraction objective(const ExactProgram& f, const Fractions& xi) {
   return half_square(f, xi) + dot(f.c, xi) + f.constant;
 }
 
+ExactProgram exact(const LinearQuadratic& f) {
+  ExactProgram made(static_cast<std::size_t>(f.n), static_cast<std::size_t>(f.auxiliaries()));
+  for (Index j = 0; j < f.H.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator entry(f.H, j); entry; ++entry)
+      add(made.H[static_cast<std::size_t>(entry.row())], static_cast<std::size_t>(j),
+          fraction(entry.value()));
+  for (Index j = 0; j < f.variables(); ++j) made.c[static_cast<std::size_t>(j)] = fraction(f.c[j]);
+  made.constant = fraction(f.constant);
+  for (Index a = 0; a < f.rows(); ++a) {
+    ExactRow row;
+    for (SparseRows::InnerIterator entry(f.G, a); entry; ++entry)
+      add(row, static_cast<std::size_t>(entry.col()), fraction(entry.value()));
+    const bool two_sided = std::binary_search(f.two_sided.begin(), f.two_sided.end(), a);
+    made.rows.push_back({std::move(row), fraction(f.h[a]), two_sided});
+  }
+  return made;
+}
+
 LinearQuadratic rounded(const ExactProgram& f) {
   LinearQuadraticBuilder form(static_cast<Index>(f.n), static_cast<Index>(f.variables() - f.n));
   for (std::size_t i = 0; i < f.variables(); ++i) {

@@ -56,6 +56,8 @@ Fraction half_square(const ExactProgram& f, const Fractions& xi);
 /// ½ ξ·Hξ + c·ξ + constant.
 Fraction objective(const ExactProgram& f, const Fractions& xi);
 
+/// The program of doubles at their exact values.
+ExactProgram exact(const LinearQuadratic& f);
 /// The program with its numbers rounded.
 LinearQuadratic rounded(const ExactProgram& f);
 

@@ -20,14 +20,11 @@ constexpr std::size_t most_variables = 64;
 /// The conditions on ξ = (v, w) that v lies in the domain of g* and in the box, as a program of 0.
 ExactProgram slopes_in_common(const std::optional<LinearQuadratic>& dual, const std::vector<Interval>& box) {
   const std::size_t n = box.size();
-  const std::size_t k = dual ? static_cast<std::size_t>(dual->auxiliaries()) : 0;
-  ExactProgram domain(0, n + k);
-  for (Index a = 0; dual && a < dual->rows(); ++a) {
-    ExactRow row;
-    for (SparseRows::InnerIterator entry(dual->G, a); entry; ++entry)
-      add(row, static_cast<std::size_t>(entry.col()), fraction(entry.value()));
-    const bool two_sided = std::binary_search(dual->two_sided.begin(), dual->two_sided.end(), a);
-    domain.rows.push_back({std::move(row), fraction(dual->h[a]), two_sided});
+  ExactProgram domain(0, n);
+  if (dual) {
+    ExactProgram rows = exact(*dual);
+    domain = ExactProgram(0, rows.variables());
+    domain.rows = std::move(rows.rows);
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isfinite(box[i].low)) domain.bound({{i, fraction(1)}}, fraction(box[i].low));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/composite/composite_prox.hpp"
 #include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
@@ -10,6 +11,7 @@
 #include "convex/proved_prox/entry_formulas.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
+#include "convex/proved_prox/supremum_between.hpp"
 
 namespace convex::inline proved_prox {
 
@@ -81,11 +83,34 @@ namespace {
 
 /// The value of a program at x, rounded, +inf where it has none; nothing where fractions would take long.
 std::optional<double> quick_value(const ExactProgram& f, const Fractions& x) {
-  constexpr double part_of_operations = 0.01;  // some hundredths of a second
-  if (!(pair_operations(f, identity_gram(x.size())) <= part_of_operations * most_word_operations))
+  if (!(pair_operations(f, identity_gram(x.size())) <= quick_part_of_operations * most_word_operations))
     return std::nullopt;
   const ExactValue found = exact_value(f, x);
   return found.end == ProgramEnd::minimum ? nearest_double(found.value) : INFINITY;
+}
+
+/// The value that doubles found, or the bounds that fractions prove it to be outside of.
+Value held_between(const Function& f, const Function& g, const Metric& W, const Vector& y, Value found) {
+  const auto form = f.node().graph(y.size());
+  const auto slope = std::isfinite(found.value) && form ? g.subgradient(y) : std::nullopt;
+  if (!slope || !slope->allFinite()) return found;
+  Vector xi(form->n + form->k);
+  xi.head(form->n) = W.solve(*slope);
+  if (form->k > 0) {
+    const GraphValue at_x = evaluate(*form, xi.head(form->n));
+    if (at_x.w.size() != form->k) return found;
+    xi.tail(form->k) = at_x.w;
+  }
+  if (!xi.allFinite()) return found;
+  const auto proved = supremum_between(*form, xi, multiply(exact_gram(W), fractions(y)));
+  if (!proved) return found;
+  const double low = nearest_double(proved->low),
+               high = proved->high ? nearest_double(*proved->high) : INFINITY;
+  const double rounding = unit_roundoff * (std::abs(low) + std::abs(found.value));
+  if (high - low + rounding < found.error) return {low, high - low + rounding};
+  if (low - found.value <= found.error + rounding && found.value - high <= found.error + rounding)
+    return found;
+  return {low, high - low + rounding};
 }
 
 }  // namespace
@@ -94,7 +119,10 @@ Value decided_conjugate(const SplitQuestion& written, const Function& g, const V
   const Value found = g.evaluate(y);
   const auto program = exact_program(written.f, written.W);
   const auto of_roundings = exact_program(g.call(), identity_gram(written.z.size()));
-  if (!program || !of_roundings) return found;
+  if (!program || !of_roundings) {
+    const Metric W = rounded(written.W);
+    return held_between(make_function(written.f, {W}), g, W, y, found);
+  }
   const auto value = quick_value(exact_programs::conjugate(*program), multiply(written.W, written.z)),
              beside = quick_value(*of_roundings, fractions(y));
   if (!value || !beside) return found;

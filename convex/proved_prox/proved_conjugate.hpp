@@ -21,11 +21,16 @@ struct ProvedValue {
 /// where a pair with the covector Wy itself is found.
 ProvedValue proved_conjugate(const SplitQuestion& question);
 
+/// The part of the most word operations that a value in fractions may take by the way: some hundredths of a
+/// second.
+constexpr double quick_part_of_operations = 0.01;
+
 /// g(y) as it is told: in fractions where f is piecewise linear-quadratic and they take no longer than
 /// doubles may. Slopes and rows that agree but for roundings may have the supremum anywhere along what
 /// doubles take for nothing, as that of 4x - max(4x, 3.9999999999999964x + 1) at 1e15. The numbers are those
 /// written; what their roundings, of which the functions are made, would make of the value is its error. A y
-/// that a rounding puts outside the domain keeps the value beside it.
+/// that a rounding puts outside the domain keeps the value beside it. Beside curved terms fractions bound the
+/// value (see supremum_between.hpp); where that of doubles is outside, the bounds are told.
 Value decided_conjugate(const SplitQuestion& written, const Function& g, const Vector& y);
 
 }  // namespace convex::inline proved_prox

@@ -52,6 +52,44 @@ TEST_CASE("slopes that agree but for roundings have the supremum that they have,
   }
 }
 
+TEST_CASE("beside a curved function the supremum of slopes that agree but for roundings is as far out") {
+  const char* const f =
+      "sum(exponential(), max_affine([[0.1],[0.10000000001],[0.10000000001]], [0.25,0.001,0.75]))";
+  // The supremum is at the kink x = -1/2 / (c - a), where e^x is 0: it is (y - a) x - 1/4.
+  const double a = 0.1, c = 0.10000000001, x = -0.5 / (c - a);
+  for (const double y :
+       {0.1, 0.1000000000001, 0.1000000000099, 0.100000000009999, 0.1000000000099999, 0.10000000000999999}) {
+    const Value value = told(f, Vector{{y}});
+    CAPTURE(value.value);
+    CHECK(std::abs(value.value - ((y - a) * x - 0.25)) <= value.error + 1e-15);
+    CHECK(value.error <= 1e-12);
+  }
+}
+
+TEST_CASE("the supremum of two entries is the sum of both, however far out the kinks of the one are") {
+  const char* const one = "sum(exponential(), max_affine([[1],[1.0000000000001]], [-0.5,1]))";
+  const char* const other = "sum(exponential(), max_affine([[0.5],[2]], [1,0]))";
+  const char* const both =
+      "sum(exponential(), max_affine([[1,0.5],[1.0000000000001,0.5],[1,2],[1.0000000000001,2]], "
+      "[0.5,2,-0.5,1]))";
+  const Value first = told(one, Vector{{1.00000000000002}}), second = told(other, Vector{{1.25}}),
+              whole = told(both, Vector{{1.00000000000002, 1.25}});
+  CHECK(std::abs(first.value - 0.2) < 1e-2);
+  CHECK(std::abs(whole.value - first.value - second.value) <= whole.error + first.error + second.error);
+  CHECK(whole.error <= 1e-12);
+}
+
+TEST_CASE("a maximum with a curved function is as far out where its lines agree but for roundings") {
+  const char* const f = "pointwise_max(exponential(), max_affine([[-0.5],[-0.500000000001]], [0.25,0]))";
+  const double a = -0.5, c = -0.500000000001, x = 0.25 / (c - a);
+  for (const double y : {-0.5000000000005, -0.5000000000009}) {
+    const Value value = told(f, Vector{{y}});
+    CAPTURE(value.value);
+    CHECK(std::abs(value.value - ((y - a) * x - 0.25)) <= value.error + 1e-15);
+    CHECK(value.error <= 1e-12);
+  }
+}
+
 TEST_CASE("what the roundings of numbers make of a value is its error") {
   // The double 0.1 is above a tenth by a part of what the slopes differ by, and is the first one rounded.
   const Value value = told("max_affine([[0.1],[0.1000000000000001]], [0,-100000000])", Vector{{0.1}});

@@ -1,0 +1,180 @@
+#include "convex/proved_prox/supremum_between.hpp"
+
+#include <cmath>
+
+#include "convex/composite/epigraph.hpp"
+#include "convex/exact_program/exact_minimum.hpp"
+#include "convex/exact_program/program_operations.hpp"
+#include "convex/nearest_point/solution.hpp"
+#include "convex/proved_prox/proved_conjugate.hpp"
+#include "convex/proved_prox/proved_metric.hpp"
+
+namespace convex::inline proved_prox {
+namespace {
+
+/// A curved term's arguments at the points that its bounds touch it in.
+using Touched = std::vector<Vector>;
+
+Vector along(Index n, Index i, double sign) {
+  Vector d = Vector::Zero(n);
+  d[i] = sign;
+  return d;
+}
+
+bool is_known(const Value& value) { return std::isfinite(value.value) && std::isfinite(value.error); }
+
+/// h(û) + Σ_i h∞(±e_i) (u_i - û_i)^±; none where h(û) is infinite or not known.
+std::optional<ExactProgram> touching_above(const FunctionNode& h, const Touched& points) {
+  const Vector& touched = points.front();
+  const Value value = h.evaluate(touched);
+  if (!is_known(value)) return std::nullopt;
+  const Index n = touched.size();
+  ExactProgram made(static_cast<std::size_t>(n), static_cast<std::size_t>(n));
+  made.constant = fraction(value.value) + fraction(value.error);
+  for (Index i = 0; i < n; ++i) {
+    const auto u = static_cast<std::size_t>(i), rise = u + static_cast<std::size_t>(n);
+    const Fraction at = fraction(touched[i]);
+    made.c[rise] = fraction(1);
+    bool is_bounded = false;
+    for (const double side : {1.0, -1.0}) {
+      const double slope = h.recession(along(n, i, side));
+      if (std::isnan(slope) || slope == -INFINITY) return std::nullopt;
+      if (slope == INFINITY) {
+        made.bound({{u, fraction(-side)}}, fraction(-side) * at);
+        continue;
+      }
+      is_bounded = true;
+      ExactRow row{{rise, fraction(1)}};
+      add(row, u, fraction(-side) * fraction(slope));
+      made.bound(std::move(row), fraction(-side) * fraction(slope) * at);
+    }
+    if (!is_bounded) made.bound({{rise, fraction(1)}}, {});
+  }
+  return made;
+}
+
+/// The largest of the tangents at these points and, of one entry, of those far out.
+std::optional<ExactProgram> touching_below(const FunctionNode& h, const Touched& points) {
+  const Index n = points.front().size();
+  ExactProgram made(static_cast<std::size_t>(n), 1);
+  const auto height = static_cast<std::size_t>(n);
+  made.c[height] = fraction(1);
+  /// height >= v·u + least
+  const auto hold_above = [&](const Vector& v, const Fraction& least) {
+    ExactRow row{{height, fraction(1)}};
+    for (Index i = 0; i < n; ++i) add(row, static_cast<std::size_t>(i), fraction(-v[i]));
+    made.bound(std::move(row), least);
+  };
+  for (const Vector& touched : points) {
+    const Value value = h.evaluate(touched);
+    const auto v = h.subgradient(touched);
+    if (!is_known(value) || !v || !v->allFinite()) continue;
+    Fraction least = fraction(value.value) - fraction(value.error);
+    for (Index i = 0; i < n; ++i) least = least - fraction((*v)[i]) * fraction(touched[i]);
+    hold_above(*v, least);
+  }
+  for (const double side : {1.0, -1.0}) {
+    const Vector v = Vector::Constant(1, side * h.recession(along(n, 0, side)));
+    if (n > 1 || !v.allFinite()) continue;
+    if (const Value value = h.conjugate().evaluate(v); is_known(value))
+      hold_above(v, -(fraction(value.value) + fraction(value.error)));
+  }
+  return made.rows.empty() ? std::nullopt : std::optional(std::move(made));
+}
+
+/// h itself where it is a program; else `touching` for it, entry by entry where it is a sum of these.
+template <class Touching>
+std::optional<ExactProgram> by_entries(const Atom& h, const Touched& points, const Touching& touching) {
+  if (const auto as_it_is = h.linear_quadratic(points.front().size())) return exact(*as_it_is);
+  const auto constant = h.facts().separable ? h.constant_beside_entries() : std::nullopt;
+  if (!constant || !is_known(*constant) || constant->error > 0) return touching(h, points);
+  std::vector<ExactProgram> entries;
+  for (Index i = 0; i < points.front().size(); ++i) {
+    const auto of_entry = h.entry(i);
+    if (!of_entry) return touching(h, points);
+    Touched at;
+    for (const Vector& u : points) at.push_back(Vector::Constant(1, u[i]));
+    auto program = touching(of_entry->node(), at);
+    if (!program) return std::nullopt;
+    entries.push_back(*std::move(program));
+  }
+  ExactProgram made = exact_programs::separable(entries);
+  made.constant = made.constant + fraction(constant->value);
+  return made;
+}
+
+/// A term, or a bound of it where it is curved: of an epigraph that of its function. None of other curved
+/// sets.
+template <class Touching>
+std::optional<ExactProgram> in_pieces(const Atom& h, const Touched& points, const Touching& touching) {
+  const auto epigraph = parts_of_epigraph(h);
+  if (!epigraph) {
+    const bool is_curved_set = h.facts().indicator && !h.facts().piecewise_quadratic;
+    return is_curved_set ? std::nullopt : by_entries(h, points, touching);
+  }
+  const Index n = points.front().size() - 1;
+  Touched at;
+  for (const Vector& u : points) at.push_back(u.head(n));
+  const auto of_function = by_entries(*epigraph->f, at, touching);
+  const auto made = of_function ? exact_programs::epigraph(*of_function) : std::nullopt;
+  if (!made) return std::nullopt;
+  std::vector<ExactRow> sides;
+  for (std::size_t i = 0; i < made->n; ++i) sides.push_back({{i, fraction(1)}});
+  sides.back().begin()->second = fraction(epigraph->side);
+  return exact_programs::precompose(*made, sides, Fractions(made->n), made->n);
+}
+
+/// f with its terms as `bound` makes them; its entries are x and w.
+template <class Bound>
+std::optional<ExactProgram> with_terms(const GraphForm& f, const Bound& bound) {
+  const auto columns = static_cast<std::size_t>(f.n + f.k);
+  std::vector<ExactProgram> terms{ExactProgram(columns, 0)};
+  terms.front().constant = fraction(f.constant);
+  for (const GraphTerm& term : f.terms) {
+    auto program = bound(term);
+    if (!program) return std::nullopt;
+    std::vector<ExactRow> A(program->n);
+    for (Index j = 0; j < term.M.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator entry(term.M, j); entry; ++entry)
+        add(A[static_cast<std::size_t>(entry.row())], static_cast<std::size_t>(j), fraction(entry.value()));
+    terms.push_back(exact_programs::precompose(
+        exact_programs::scale(*std::move(program), fraction(term.scale)), A, fractions(term.b), columns));
+  }
+  return exact_programs::sum(terms);
+}
+
+Vector argument(const GraphTerm& term, const Vector& xi) { return term.M * xi + term.b; }
+
+/// The supremum over ξ, where it is attained, with the ξ.
+std::optional<GraphPoint> supremum(const std::optional<ExactProgram>& f, const Fractions& v) {
+  if (!f) return std::nullopt;
+  const ExactProgram g = exact_programs::conjugate(*f);
+  if (!(pair_operations(g, identity_gram(g.n)) <= quick_part_of_operations * most_word_operations))
+    return std::nullopt;
+  return graph_point_at(g, v);
+}
+
+}  // namespace
+
+std::optional<SupremumBetween> supremum_between(const GraphForm& f, const Vector& xi, const Fractions& v) {
+  Fractions of_all = v;
+  of_all.resize(static_cast<std::size_t>(f.n + f.k));
+  const auto low = supremum(
+      with_terms(
+          f, [&](const GraphTerm& term) { return in_pieces(*term.f, {argument(term, xi)}, touching_above); }),
+      of_all);
+  if (!low) return std::nullopt;
+  SupremumBetween found{low->f_x, std::nullopt};
+  const Vector farther = nearest(low->v);
+  if (!farther.allFinite()) return found;
+  const auto high = supremum(
+      with_terms(f,
+                 [&](const GraphTerm& term) {
+                   return in_pieces(*term.f, {argument(term, xi), argument(term, farther)}, touching_below);
+                 }),
+      of_all);
+  if (high) found.high = high->f_x;
+  return found;
+}
+
+}  // namespace convex::inline proved_prox
