@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <cmath>
 
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
@@ -11,6 +12,7 @@
 #include "cli/python/expression.hpp"
 #include "cli/python/user_function.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/proved_prox/proved_conjugate.hpp"
 
 namespace py = pybind11;
 
@@ -90,12 +92,27 @@ py::dict described(const CatalogueEntry& entry) {
   return made;
 }
 
-double value(const Expression& f, const py::object& x, const py::object& W) {
+convex::Value known_value(const Expression& f, const py::object& x, const py::object& W) {
   const convex::Vector point = vector_of(x, "x");
   const convex::Metric metric = metric_of(W, point.size(), "W");
   const convex::Function made = f.in(metric);
   const py::gil_scoped_release released;
-  return made(point);
+  return convex::decided_value(made, metric, point);
+}
+
+/// f(x), with a warning where the error may be more than the accuracy that a value is expected to have.
+double value(const Expression& f, const py::object& x, const py::object& W) {
+  constexpr double expected = 1e-9;
+  const convex::Value found = known_value(f, x, W);
+  const double size = std::isfinite(found.value) ? std::max(1.0, std::abs(found.value)) : 1;
+  if (!(found.error <= expected * size)) {
+    const std::string text = "f(x) = " + convex::to_text(found.value) + " is not known to 1e-9: " +
+                             (std::isfinite(found.error) ? "its error may be " + convex::to_text(found.error)
+                                                         : std::string("nothing is known of its error")) +
+                             "; f.evaluate(x) gives both";
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) < 0) throw py::error_already_set();
+  }
+  return found.value;
 }
 
 std::shared_ptr<const Expression> conjugate(const Expression& f, const py::object& W) {
@@ -183,7 +200,16 @@ void add_functions(py::module_& module) {
 It is made by the functions of this module, such as norm1(weight=2), and by operators: 2*f, f + g, f + 1, f @ A
 for x -> f(Ax). Envelopes, supports and proximal averages take the product of the metric that they meet.)");
   add_operators(type);
-  type.def("__call__", value, py::arg("x"), py::arg("W") = py::none(), "f(x), inf outside the domain.")
+  type.def("__call__", value, py::arg("x"), py::arg("W") = py::none(),
+           "f(x), inf outside the domain; a RuntimeWarning where it is not known to 1e-9.")
+      .def(
+          "evaluate",
+          [](const Expression& f, const py::object& x, const py::object& W) {
+            const convex::Value found = known_value(f, x, W);
+            return py::make_tuple(found.value, found.error);
+          },
+          py::arg("x"), py::arg("W") = py::none(),
+          "f(x) and a bound of its error, inf where nothing is known.")
       .def(
           "conjugate",
           [](const Expression& f, const py::object& W) {
@@ -201,7 +227,9 @@ for x -> f(Ax). Envelopes, supports and proximal averages take the product of th
       module, "Set", "A closed convex set. Where a function is wanted it stands for its indicator.")
       .def(
           "__contains__",
-          [](const SetExpression& set, const py::object& x) { return value(set, x, py::none()) == 0; },
+          [](const SetExpression& set, const py::object& x) {
+            return known_value(set, x, py::none()).value == 0;
+          },
           py::arg("x"), "Is x in the set, up to the membership tolerance?")
       .def(
           "__and__",

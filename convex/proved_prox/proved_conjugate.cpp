@@ -115,6 +115,18 @@ Value held_between(const Function& f, const Function& g, const Metric& W, const 
 
 }  // namespace
 
+Value decided_value(const Function& f, const Metric& W, const Vector& x) {
+  const Value found = f.evaluate(x);
+  const auto form = f.node().graph(x.size());
+  if (!form || form->k == 0) return found;
+  const auto program = exact_program(f.call(), exact_gram(W));
+  if (!program) return held_between(f.conjugate(), f, Metric::identity(x.size()), x, found);
+  const auto value = quick_value(*program, fractions(x));
+  // A rounding of x or of the numbers is as much outside as a mile.
+  if (!value || (std::isinf(*value) && std::isfinite(found.value))) return found;
+  return {*value, unit_roundoff * (std::isinf(*value) ? 0 : std::abs(*value))};
+}
+
 Value decided_conjugate(const SplitQuestion& written, const Function& g, const Vector& y) {
   const Value found = g.evaluate(y);
   const auto program = exact_program(written.f, written.W);

@@ -25,6 +25,11 @@ ProvedValue proved_conjugate(const SplitQuestion& question);
 /// second.
 constexpr double quick_part_of_operations = 0.01;
 
+/// f(x) for a function made in the product of W, where it is an infimum over more variables: its doubles
+/// taken for fractions where it is piecewise linear-quadratic and they take no longer than doubles may, else
+/// held between what supremum_between.hpp proves of f = f**. A formula's value stays as it is.
+Value decided_value(const Function& f, const Metric& W, const Vector& x);
+
 /// g(y) as it is told: in fractions where f is piecewise linear-quadratic and they take no longer than
 /// doubles may. Slopes and rows that agree but for roundings may have the supremum anywhere along what
 /// doubles take for nothing, as that of 4x - max(4x, 3.9999999999999964x + 1) at 1e15. The numbers are those

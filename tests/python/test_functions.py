@@ -59,6 +59,19 @@ class Language(unittest.TestCase):
         self.assertNotIn([0.5, 2], box(0, 1))
         self.assertEqual((box(0, 1) & moreau.halfspace([1, 1], 1))([0.5, 0.6]), np.inf)
 
+    def test_a_value_by_a_program_comes_with_its_error_and_one_not_known_with_a_warning(self):
+        a, c, x = 0.1, 0.10000000001, -0.5 / (0.10000000001 - 0.1)
+        g = moreau.conjugate(moreau.exponential() + moreau.max_affine([[a], [c]], [0.25, 0.75]))
+        for y in (0.1000000000099, 0.10000000000999999):  # the kink is at x, where e^x is 0
+            value, error = g.evaluate([y])
+            self.assertLess(error, 1e-12)
+            self.assertLessEqual(abs(value - ((y - a) * x - 0.25)), error + 1e-15)
+            self.assertEqual(g([y]), value)
+        steep = moreau.conjugate(moreau.log_barrier() + moreau.max_affine([[a], [0.10000000000000031]], [2.5, 0]))
+        with self.assertWarnsRegex(RuntimeWarning, "is not known to 1e-9: its error may be"):
+            steep([0.10000000000000035])
+        self.assertEqual(norm1().evaluate([1, -2])[0], 3)
+
 
 class Proxes(unittest.TestCase):
     def test_soft_thresholding_in_identity_diagonal_and_many_points(self):
