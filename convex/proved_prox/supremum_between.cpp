@@ -154,6 +154,29 @@ std::optional<GraphPoint> supremum(const std::optional<ExactProgram>& f, const F
   return graph_point_at(g, v);
 }
 
+/// What the roundings of the slopes of `touching` may be of the supremum at xi: a slope is right to some of
+/// its own, and counts as far as xi is from where it touches.
+double roundings_of_slopes(const GraphForm& f, const std::vector<Vector>& touching, const Vector& xi) {
+  constexpr double roundings = 4;
+  double sum = 0;
+  for (const GraphTerm& term : f.terms) {
+    if (term.f->linear_quadratic(term.M.rows())) continue;
+    const Vector u = argument(term, xi);
+    for (const Vector& point : touching) {
+      const Vector apart = (u - argument(term, point)).cwiseAbs();
+      const auto slope = term.f->subgradient(argument(term, point));
+      double steep = slope && slope->allFinite() ? slope->cwiseAbs().maxCoeff() : 0;
+      for (Index i = 0; i < apart.size(); ++i)
+        for (const double side : {1.0, -1.0})
+          if (const double far_out = std::abs(term.f->recession(along(u.size(), i, side)));
+              far_out < INFINITY)
+            steep = std::max(steep, far_out);
+      sum += term.scale * steep * apart.sum();
+    }
+  }
+  return roundings * unit_roundoff * sum;
+}
+
 }  // namespace
 
 std::optional<SupremumBetween> supremum_between(const GraphForm& f, const Vector& xi, const Fractions& v) {
@@ -164,16 +187,21 @@ std::optional<SupremumBetween> supremum_between(const GraphForm& f, const Vector
           f, [&](const GraphTerm& term) { return in_pieces(*term.f, {argument(term, xi)}, touching_above); }),
       of_all);
   if (!low) return std::nullopt;
-  SupremumBetween found{low->f_x, std::nullopt};
   const Vector farther = nearest(low->v);
-  if (!farther.allFinite()) return found;
+  if (!farther.allFinite()) return std::nullopt;
+  const double of_low = roundings_of_slopes(f, {xi}, farther);
+  if (!std::isfinite(of_low)) return std::nullopt;
+  SupremumBetween found{low->f_x - fraction(of_low), std::nullopt};
   const auto high = supremum(
       with_terms(f,
                  [&](const GraphTerm& term) {
                    return in_pieces(*term.f, {argument(term, xi), argument(term, farther)}, touching_below);
                  }),
       of_all);
-  if (high) found.high = high->f_x;
+  if (!high) return found;
+  const double of_high = roundings_of_slopes(f, {xi, farther}, nearest(high->v));
+  if (std::isfinite(of_high) && !(high->f_x + fraction(of_high) < found.low))
+    found.high = high->f_x + fraction(of_high);
   return found;
 }
 
