@@ -53,7 +53,8 @@ std::optional<ExactProgram> touching_above(const FunctionNode& h, const Touched&
   return made;
 }
 
-/// The largest of the tangents at these points and, of one entry, of those far out.
+/// The largest of the tangents at these points: v·u - h*(v) of one entry, so that no rounding of v counts,
+/// and those far out beside them; h(û) + v·(u - û) of more.
 std::optional<ExactProgram> touching_below(const FunctionNode& h, const Touched& points) {
   const Index n = points.front().size();
   ExactProgram made(static_cast<std::size_t>(n), 1);
@@ -65,19 +66,27 @@ std::optional<ExactProgram> touching_below(const FunctionNode& h, const Touched&
     for (Index i = 0; i < n; ++i) add(row, static_cast<std::size_t>(i), fraction(-v[i]));
     made.bound(std::move(row), least);
   };
-  for (const Vector& touched : points) {
+  const auto hold_above_slope = [&](double slope) {
+    const Vector v = Vector::Constant(1, slope);
+    if (!v.allFinite()) return;
+    if (const Value value = h.conjugate().evaluate(v); is_known(value))
+      hold_above(v, -(fraction(value.value) + fraction(value.error)));
+  };
+  if (n == 1) {
+    const double lowest = -h.recession(along(1, 0, -1)), highest = h.recession(along(1, 0, 1));
+    for (const double slope : {lowest, highest}) hold_above_slope(slope);
+    for (const Vector& touched : points)
+      if (const auto v = h.subgradient(touched); v && lowest < (*v)[0] && (*v)[0] < highest)
+        hold_above_slope((*v)[0]);
+  }
+  for (std::size_t j = 0; n > 1 && j < points.size(); ++j) {
+    const Vector& touched = points[j];
     const Value value = h.evaluate(touched);
     const auto v = h.subgradient(touched);
     if (!is_known(value) || !v || !v->allFinite()) continue;
     Fraction least = fraction(value.value) - fraction(value.error);
     for (Index i = 0; i < n; ++i) least = least - fraction((*v)[i]) * fraction(touched[i]);
     hold_above(*v, least);
-  }
-  for (const double side : {1.0, -1.0}) {
-    const Vector v = Vector::Constant(1, side * h.recession(along(n, 0, side)));
-    if (n > 1 || !v.allFinite()) continue;
-    if (const Value value = h.conjugate().evaluate(v); is_known(value))
-      hold_above(v, -(fraction(value.value) + fraction(value.error)));
   }
   return made.rows.empty() ? std::nullopt : std::optional(std::move(made));
 }
@@ -154,24 +163,20 @@ std::optional<GraphPoint> supremum(const std::optional<ExactProgram>& f, const F
   return graph_point_at(g, v);
 }
 
-/// What the roundings of the slopes of `touching` may be of the supremum at xi: a slope is right to some of
-/// its own, and counts as far as xi is from where it touches.
-double roundings_of_slopes(const GraphForm& f, const std::vector<Vector>& touching, const Vector& xi) {
+/// What the roundings of the slopes at `points` may be of the supremum at xi, of terms of more than one
+/// entry.
+double roundings_of_slopes(const GraphForm& f, const std::vector<Vector>& points, const Vector& xi) {
   constexpr double roundings = 4;
   double sum = 0;
   for (const GraphTerm& term : f.terms) {
-    if (term.f->linear_quadratic(term.M.rows())) continue;
+    const auto epigraph = parts_of_epigraph(*term.f);
+    const Atom& h = epigraph ? *epigraph->f : *term.f;
+    if (h.facts().separable || h.facts().piecewise_quadratic) continue;
     const Vector u = argument(term, xi);
-    for (const Vector& point : touching) {
-      const Vector apart = (u - argument(term, point)).cwiseAbs();
-      const auto slope = term.f->subgradient(argument(term, point));
-      double steep = slope && slope->allFinite() ? slope->cwiseAbs().maxCoeff() : 0;
-      for (Index i = 0; i < apart.size(); ++i)
-        for (const double side : {1.0, -1.0})
-          if (const double far_out = std::abs(term.f->recession(along(u.size(), i, side)));
-              far_out < INFINITY)
-            steep = std::max(steep, far_out);
-      sum += term.scale * steep * apart.sum();
+    for (const Vector& point : points) {
+      const Vector touched = argument(term, point);
+      if (const auto slope = h.subgradient(epigraph ? Vector(touched.head(touched.size() - 1)) : touched))
+        sum += term.scale * slope->cwiseAbs().maxCoeff() * (u - touched).lpNorm<1>();
     }
   }
   return roundings * unit_roundoff * sum;
@@ -187,11 +192,9 @@ std::optional<SupremumBetween> supremum_between(const GraphForm& f, const Vector
           f, [&](const GraphTerm& term) { return in_pieces(*term.f, {argument(term, xi)}, touching_above); }),
       of_all);
   if (!low) return std::nullopt;
+  SupremumBetween found{low->f_x, std::nullopt};
   const Vector farther = nearest(low->v);
-  if (!farther.allFinite()) return std::nullopt;
-  const double of_low = roundings_of_slopes(f, {xi}, farther);
-  if (!std::isfinite(of_low)) return std::nullopt;
-  SupremumBetween found{low->f_x - fraction(of_low), std::nullopt};
+  if (!farther.allFinite()) return found;
   const auto high = supremum(
       with_terms(f,
                  [&](const GraphTerm& term) {
@@ -199,9 +202,9 @@ std::optional<SupremumBetween> supremum_between(const GraphForm& f, const Vector
                  }),
       of_all);
   if (!high) return found;
-  const double of_high = roundings_of_slopes(f, {xi, farther}, nearest(high->v));
-  if (std::isfinite(of_high) && !(high->f_x + fraction(of_high) < found.low))
-    found.high = high->f_x + fraction(of_high);
+  const double rounding = roundings_of_slopes(f, {xi, farther}, nearest(high->v));
+  if (!std::isfinite(rounding)) return found;
+  if (const Fraction above = high->f_x + fraction(rounding); !(above < found.low)) found.high = above;
   return found;
 }
 
