@@ -5,6 +5,7 @@
 #include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/epigraph.hpp"
 #include "convex/composite/receding_directions.hpp"
+#include "convex/gamma0/work_limit.hpp"
 
 namespace convex::inline composite {
 namespace {
@@ -128,6 +129,7 @@ bool is_tight(const GraphTerm& term, const Vector& u) {
 }  // namespace
 
 GraphForm with_attained_infimum(GraphForm f) {
+  const auto part = WorkLimit::half_of_the_rest();  // the infimum itself is to have some
   const auto may_recede = [&] {
     return f.k > 0 && std::any_of(f.terms.begin(), f.terms.end(),
                                   [](const GraphTerm& term) { return curved_sum(term) != nullptr; });

@@ -17,19 +17,6 @@ void check_sizes(const GraphForm& f, Index n) {
                        std::to_string(n) + "; give one of the same size");
 }
 
-/// The subgradients of the terms at u by the atoms' own formulas, where they have one; else D(t - u).
-Vector own_covectors(const SaddleProblem& problem, const SaddlePoint& point) {
-  Vector y = point.y;
-  for (const SaddleTerm& term : problem.terms) {
-    const Vector d = point.D.segment(term.first, term.rows) / term.scale;
-    const Vector u = point.u.segment(term.first, term.rows), t = point.t.segment(term.first, term.rows);
-    const auto own =
-        problem.look.by_steep_terms ? term.f->steep_covector(u, t, d) : term.f->prox_covector(u, t, d);
-    if (own) y.segment(term.first, term.rows) = term.scale * *own;
-  }
-  return y;
-}
-
 /// sum_j scale_j (f_j(u_j) + f_j*(y_j / scale_j)) - y·u, which the conjugates' own formulas keep from 0.
 double gap(const SaddleProblem& problem, const SaddlePoint& point, const Vector& covectors) {
   double sum = 0;

@@ -121,6 +121,7 @@ GraphValue evaluate(const GraphForm& given, const Vector& x) {
   };
   Vector whole(f.n + f.k);
   whole << x, point.xi;
+  const Vector covectors = own_covectors(problem, point);
   Vector slope = Vector::Zero(f.n + f.k);
   const double around_w = whole.norm() + size_of_domains(f);
   std::size_t j = 0;
@@ -142,7 +143,7 @@ GraphValue evaluate(const GraphForm& given, const Vector& x) {
     add(term.scale * term.f->value(point.u.segment(in.first, in.rows)));
     // To first order what the miss r costs; with it the sum is a lower bound of the value.
     add(y.dot(r));
-    slope += term.M.transpose() * y;
+    slope += term.M.transpose() * covectors.segment(in.first, in.rows);
     // An argument near 0 carries the rounding of the w that it is the end of.
     const double argument = (term.M.cwiseAbs() * whole.cwiseAbs() + term.b.cwiseAbs()).norm();
     const double around =
@@ -185,8 +186,10 @@ GraphValue evaluate(const GraphForm& given, const Vector& x) {
   }
   // What cannot be told from 0 is 0.
   const bool known = std::isfinite(found.error_bound);
-  if (known && std::abs(found.value) <= std::max(found.error_bound, rounding_of_rounding * energy))
+  if (known && std::abs(found.value) <= std::max(found.error_bound, rounding_of_rounding * energy)) {
+    found.error_bound += std::abs(found.value);
     found.value = 0;
+  }
   if (found.error_bound <= std::max(tolerance * size, vanishing_energy * energy)) return found;
   found.status = Status::inaccurate;
   if (falls_without_end(f, x, point.xi, point.rho)) {

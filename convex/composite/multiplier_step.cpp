@@ -10,7 +10,7 @@ namespace convex::inline composite {
 namespace {
 
 constexpr double armijo = 1e-4;
-constexpr int halvings = 50;
+constexpr int halvings = 50, most_hidden = 4;  ///< steps whose descent the slopes alone show
 constexpr Index newton_limit = 100;
 constexpr double floor_roundings = 16;
 
@@ -54,6 +54,14 @@ Inner inner_at(const SaddleProblem& problem, const SaddlePoint& centre, const Ve
   return at;
 }
 
+/// What the rounding of D(t - u) may be of the slope along a direction.
+double rounding_of_slope(const SaddleProblem& problem, const Inner& at, const Vector& D,
+                         const Vector& direction) {
+  constexpr double roundings = 4;
+  const Vector moved = problem.M.cwiseAbs() * direction.cwiseAbs();
+  return roundings * unit_roundoff * moved.dot(D.cwiseProduct(at.t.cwiseAbs() + at.u.cwiseAbs()));
+}
+
 }  // namespace
 
 MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& centre, const Vector& D,
@@ -61,6 +69,7 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
   MultiplierStep result;
   Inner at = inner_at(problem, centre, D, ridge, centre.xi);
   const Vector no_r = Vector::Zero(problem.m);
+  int hidden_steps = 0;
   for (; result.newton_steps < newton_limit && !WorkLimit::passed(); ++result.newton_steps) {
     if (std::isnan(at.value)) break;
     const NewtonSystem system(problem, at.t, D, 1, ridge);
@@ -74,19 +83,36 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
       result.minimised = true;
       break;
     }
-    bool accepted = false;
+    bool accepted = false, hidden = false;
     double length = 1;
-    for (int halving = 0; halving < halvings && !accepted; ++halving, length /= 2) {
+    const auto try_length = [&] {
       ++result.evaluations;
       WorkLimit::count(WorkLimit::of_a_saddle_point);
-      Inner next = inner_at(problem, centre, D, ridge, at.xi + length * direction);
+      return inner_at(problem, centre, D, ridge, at.xi + length * direction);
+    };
+    double low = 0, high = 0;
+    for (int halving = 0; halving < halvings && !accepted && !hidden; ++halving) {
+      Inner next = try_length();
       const double change = next.value - at.value;
       accepted = change <= armijo * length * slope;
       // Where rounding hides the descent of the value, the gradient still shows it.
-      if (!accepted && std::abs(change) <= noise && length == 1) {
-        const double next_slope = next.gradient.dot(system.step(next.gradient, no_r).dxi);
-        accepted = next_slope > 0.25 * slope;
-      }
+      hidden = !accepted && std::abs(change) <= noise;
+      if (hidden && length == 1)
+        accepted = next.gradient.dot(system.step(next.gradient, no_r).dxi) > 0.25 * slope;
+      if (!hidden || next.gradient.dot(direction) > 0) high = length;
+      if (accepted) at = std::move(next);
+      length /= 2;
+    }
+    // The slope along the direction grows, and beyond a kink is one of ascent.
+    const bool by_slopes = hidden && !accepted && high > 0 &&
+                           -slope > rounding_of_slope(problem, at, D, direction) &&
+                           hidden_steps++ < most_hidden;
+    for (int halving = 0; halving < halvings && by_slopes && !accepted; ++halving) {
+      length = 0.5 * (low + high);
+      Inner next = try_length();
+      const double next_slope = next.gradient.dot(direction);
+      (next_slope < 0 ? low : high) = length;
+      accepted = std::abs(next_slope) <= -0.5 * slope;
       if (accepted) at = std::move(next);
     }
     if (!accepted) break;

@@ -18,10 +18,10 @@ Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
   Polished polished;
   SaddlePoint& point = polished.point;
   point = saddle_point(problem, from.xi, from.u + from.y.cwiseQuotient(problem.D), problem.D);
-  const Vector ridge = polish_ridge * problem.R;
   double least = polish_theta;
   for (int count = 0; count < step_limit && point.residual > 0 && !WorkLimit::passed();) {
     const double theta = std::clamp(near * point.residual / solution_size(problem, point), least, far_theta);
+    const Vector ridge = polish_ridge * (least / polish_theta) * problem.R;
     const NewtonSystem system(problem, point.t, problem.D, theta, ridge);
     if (!system.usable()) break;
     const NewtonStep step = system.step(point.rho, point.r);
@@ -40,8 +40,9 @@ Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
       break;
     }
     if (kept) continue;
-    // Where a term is nearly an edge, as log x near 0, the part that guards against dependent rows hides its
-    // curvature: with less of it the step is Newton's again.
+    // Where a term is nearly an edge, as log x near 0, or nearly flat, as e^x for x << 0, the parts that
+    // guard against dependent rows and unbounded w hide its curvature: with less of them the step is Newton's
+    // again.
     if (theta > least || least < 1e-5 * polish_theta) break;
     least *= 1e-3;
   }

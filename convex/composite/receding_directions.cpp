@@ -193,7 +193,7 @@ void RecedingDirections::settle_equations() {
 }
 
 bool RecedingDirections::take(const std::vector<Side>& sides, Fractions& d) const {
-  if (sides.empty() || WorkLimit::passed()) return false;
+  if (sides.empty()) return false;
   ExactProgram program(0, next_ + sides.size());
   program.rows = rows_;
   for (std::size_t s = 0; s < sides.size(); ++s) {
@@ -206,7 +206,9 @@ bool RecedingDirections::take(const std::vector<Side>& sides, Fractions& d) cons
     add(row, moved, fraction(-1));
     program.bound(std::move(row), {});
   }
-  WorkLimit::count(work_of(program.rows.size()));
+  const long work = work_of(program.rows.size());
+  if (!WorkLimit::has(work)) return false;
+  WorkLimit::count(work);
   const auto found = graph_point_at(program, {});
   // Where F∞ is below 0, the infimum is -inf.
   if (!found || sign(found->f_x) == 0 || sign(dot(total_, found->xi)) < 0) return false;

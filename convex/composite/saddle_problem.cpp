@@ -251,4 +251,16 @@ SaddlePoint saddle_point(const SaddleProblem& problem, Vector xi, Vector t, cons
   return point;
 }
 
+Vector own_covectors(const SaddleProblem& problem, const SaddlePoint& point) {
+  Vector y = point.y;
+  for (const SaddleTerm& term : problem.terms) {
+    const Vector d = point.D.segment(term.first, term.rows) / term.scale;
+    const Vector u = point.u.segment(term.first, term.rows), t = point.t.segment(term.first, term.rows);
+    const auto own =
+        problem.look.by_steep_terms ? term.f->steep_covector(u, t, d) : term.f->prox_covector(u, t, d);
+    if (own) y.segment(term.first, term.rows) = term.scale * *own;
+  }
+  return y;
+}
+
 }  // namespace convex::inline composite

@@ -64,6 +64,10 @@ struct SaddlePoint {
 /// The point of a ξ and a t in a metric D (not always the problem's own); pinned entries of x are replaced.
 SaddlePoint saddle_point(const SaddleProblem&, Vector xi, Vector t, const Vector& D);
 
+/// The subgradients of the terms at u by the atoms' own formulas, where they have one; else D(t - u), which
+/// of small ones is the rounding of u.
+Vector own_covectors(const SaddleProblem&, const SaddlePoint&);
+
 /// What `residual` is relative to: ||x||_W + ||z||_W, ||u||_D and ||y||_(D⁻¹).
 double solution_size(const SaddleProblem&, const SaddlePoint&);
 

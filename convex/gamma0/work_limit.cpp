@@ -33,6 +33,8 @@ double WorkLimit::rest() {
   return static_cast<double>(std::max(0L, innermost->end_ - evaluations)) / most_evaluations;
 }
 
+bool WorkLimit::has(long more) { return !innermost || evaluations + more <= innermost->end_; }
+
 bool WorkLimit::passed() { return innermost && evaluations > innermost->end_; }
 
 }  // namespace convex::inline gamma0

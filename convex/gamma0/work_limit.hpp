@@ -32,6 +32,8 @@ class WorkLimit {
   static constexpr long of_a_program_value = 16;
   static void count(long evaluations = 1);
   static bool passed();
+  /// Is so much left? For what is counted as a whole, beforehand.
+  static bool has(long evaluations);
 
  private:
   /// What is left, as a part of the whole.

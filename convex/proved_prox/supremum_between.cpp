@@ -23,9 +23,55 @@ Vector along(Index n, Index i, double sign) {
 
 bool is_known(const Value& value) { return std::isfinite(value.value) && std::isfinite(value.error); }
 
+/// A point of the graph of a function of one entry, its height rounded up.
+struct OnGraph {
+  Fraction u, height;
+};
+
+std::optional<OnGraph> on_graph(const FunctionNode& h, const Vector& u) {
+  const Value value = h.evaluate(u);
+  if (!is_known(value)) return std::nullopt;
+  return OnGraph{fraction(u[0]), fraction(value.value) + fraction(value.error)};
+}
+
+/// Of one entry: the chords between û and the points beside it, so that what equations ask of u to the last
+/// digit is near; and from the last points on the slopes of h∞.
+std::optional<ExactProgram> chords(const FunctionNode& h, const Vector& touched) {
+  constexpr double beside = 0x1p-22;  // of û: the chords are above h by a part of its square
+  std::vector<OnGraph> points;
+  for (const double side : {-1.0, 0.0, 1.0})
+    if (side == 0 || touched[0] != 0)
+      if (auto point = on_graph(h, touched + side * beside * touched.cwiseAbs())) points.push_back(*point);
+  if (points.empty()) return std::nullopt;
+  ExactProgram made(1, 1);
+  made.c[1] = fraction(1);
+  const auto hold_above = [&](const OnGraph& point, const Fraction& slope) {
+    ExactRow row{{1, fraction(1)}};
+    add(row, 0, -slope);
+    made.bound(std::move(row), point.height - slope * point.u);
+  };
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    hold_above(points[i], (points[i + 1].height - points[i].height) / (points[i + 1].u - points[i].u));
+  bool is_held = points.size() == 1;  // u to its one point
+  for (const double side : {-1.0, 1.0}) {
+    const OnGraph& last = side < 0 ? points.front() : points.back();
+    const double slope = h.recession(along(1, 0, side));
+    if (std::isnan(slope) || slope == -INFINITY) return std::nullopt;
+    if (slope == INFINITY) {
+      made.bound({{0, fraction(-side)}}, fraction(-side) * last.u);
+    } else {
+      hold_above(last, fraction(side) * fraction(slope));
+      is_held = false;
+    }
+  }
+  if (is_held) hold_above(points.front(), {});
+  return made;
+}
+
 /// h(û) + Σ_i h∞(±e_i) (u_i - û_i)^±; none where h(û) is infinite or not known.
 std::optional<ExactProgram> touching_above(const FunctionNode& h, const Touched& points) {
   const Vector& touched = points.front();
+  if (touched.size() == 1) return chords(h, touched);
   const Value value = h.evaluate(touched);
   if (!is_known(value)) return std::nullopt;
   const Index n = touched.size();
@@ -60,8 +106,10 @@ std::optional<ExactProgram> touching_below(const FunctionNode& h, const Touched&
   ExactProgram made(static_cast<std::size_t>(n), 1);
   const auto height = static_cast<std::size_t>(n);
   made.c[height] = fraction(1);
+  bool is_held = false;
   /// height >= v·u + least
   const auto hold_above = [&](const Vector& v, const Fraction& least) {
+    is_held = true;
     ExactRow row{{height, fraction(1)}};
     for (Index i = 0; i < n; ++i) add(row, static_cast<std::size_t>(i), fraction(-v[i]));
     made.bound(std::move(row), least);
@@ -75,6 +123,9 @@ std::optional<ExactProgram> touching_below(const FunctionNode& h, const Touched&
   if (n == 1) {
     const double lowest = -h.recession(along(1, 0, -1)), highest = h.recession(along(1, 0, 1));
     for (const double slope : {lowest, highest}) hold_above_slope(slope);
+    for (const double side : {1.0, -1.0})
+      if (const double end = h.domain_support(along(1, 0, side)); std::isfinite(end))
+        made.bound({{0, fraction(-side)}}, fraction(-end));
     for (const Vector& touched : points)
       if (const auto v = h.subgradient(touched); v && lowest < (*v)[0] && (*v)[0] < highest)
         hold_above_slope((*v)[0]);
@@ -88,13 +139,21 @@ std::optional<ExactProgram> touching_below(const FunctionNode& h, const Touched&
     for (Index i = 0; i < n; ++i) least = least - fraction((*v)[i]) * fraction(touched[i]);
     hold_above(*v, least);
   }
-  return made.rows.empty() ? std::nullopt : std::optional(std::move(made));
+  return is_held ? std::optional(std::move(made)) : std::nullopt;
+}
+
+/// h itself as a program; none where it is curved.
+std::optional<ExactProgram> as_it_is(const Atom& h, Index n) {
+  if (const auto program = h.linear_quadratic(n)) return exact(*program);
+  const auto form = h.quadratic_form(n);
+  if (!form) return std::nullopt;
+  return exact(LinearQuadratic{n, form->Q, form->c, form->constant, SparseRows(0, n), Vector(0), {}});
 }
 
 /// h itself where it is a program; else `touching` for it, entry by entry where it is a sum of these.
 template <class Touching>
 std::optional<ExactProgram> by_entries(const Atom& h, const Touched& points, const Touching& touching) {
-  if (const auto as_it_is = h.linear_quadratic(points.front().size())) return exact(*as_it_is);
+  if (auto program = as_it_is(h, points.front().size())) return program;
   const auto constant = h.facts().separable ? h.constant_beside_entries() : std::nullopt;
   if (!constant || !is_known(*constant) || constant->error > 0) return touching(h, points);
   std::vector<ExactProgram> entries;
