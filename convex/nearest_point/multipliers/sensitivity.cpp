@@ -51,12 +51,15 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
   NearestPointProblem pulled = face;
   constexpr int most_trials = 8;
   constexpr double factor = 32, tight = 1e-9, balanced = 1e-9;
-  double t = (1 + face.s.cwiseAbs().maxCoeff() + face.A.dual_norm(face.z)) / push;
+  const Vector lengths = face.U.lengths(face.A.diagonal().cwiseInverse());
+  double way = face.A.dual_norm(face.z);  // the size of d, whatever the units of the rows are
+  for (Index a = 0; a < face.rows(); ++a)
+    if (lengths[a] > 0) way = std::max(way, std::abs(face.s[a]) / lengths[a]);
+  double t = 2 * way / push;
   for (int trial = 0; trial < most_trials; ++trial, t *= factor) {
     pulled.z = face.z - t * R;
     const Solution moved = active_set(pulled);
     if (moved.q.size() != face.dimension()) return std::nullopt;
-    const Vector lengths = face.U.lengths(face.A.diagonal().cwiseInverse());
     std::vector<Index> rows, free;
     for (Index a = 0; a < face.rows(); ++a) {
       const bool held = two_sided[at(a)];
@@ -69,10 +72,13 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
     const ConeProjection found = cone_projection(whitened_rows(face, rows), whole, free);
     if (!((found.point - whole).norm() <= balanced * push)) continue;
     std::vector<Index> loaded;
-    const double largest = found.lambda.size() > 0 ? found.lambda.cwiseAbs().maxCoeff() : 0;
+    const auto push_of = [&](std::size_t k) {
+      return found.lambda[static_cast<Index>(k)] * lengths[rows[k]];
+    };
+    double largest = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) largest = std::max(largest, std::abs(push_of(k)));
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (two_sided[at(rows[k])] || found.lambda[static_cast<Index>(k)] > noise * largest)
-        loaded.push_back(rows[k]);
+      if (two_sided[at(rows[k])] || push_of(k) > noise * largest) loaded.push_back(rows[k]);
     return loaded;
   }
   return std::nullopt;
@@ -109,7 +115,9 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
   const Solution moved = active_set(face, {.limit = 0});
   if (moved.q.size() != problem.dimension()) return std::nullopt;
   Derivative found{moved.q, face.U.transpose_times(moved.lambda), std::nullopt};
-  if (multipliers.unique) {
+  // Where unique ones move into a face of many, they have no derivative.
+  constexpr double tolerance = 1e-9;
+  if (multipliers.unique && convex::multipliers(face, moved, tolerance, false).unique) {
     found.multipliers = Vector::Zero(problem.rows());
     for (std::size_t k = 0; k < tight.size(); ++k)
       (*found.multipliers)[tight[k]] = moved.lambda[static_cast<Index>(k)];

@@ -8,7 +8,7 @@
 namespace convex::inline multiplier_sets {
 
 /// How a solution answers to a change of the data: q(t) = q + t acceleration for small t > 0, exactly so
-/// until the active rows change; likewise lambda, where multipliers are unique.
+/// until the active rows change; likewise lambda, where multipliers are unique and stay so.
 struct Derivative {
   Vector acceleration;                ///< dq/dt: n
   Vector reaction;                    ///< dR/dt, R = Σ lambda_a u_a: n
@@ -39,7 +39,7 @@ struct FirstChange {
   bool closes = false;
 };
 
-/// Along a derivative by dz alone. None when no row ever does, or multipliers are not unique.
+/// Along a derivative by dz alone. None when no row ever does, or multipliers are not unique or do not stay so.
 std::optional<FirstChange> first_change(const NearestPointProblem&, const Solution&, const Multipliers&,
                                         const Vector& dz, const Derivative& by);
 

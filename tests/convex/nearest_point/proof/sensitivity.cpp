@@ -106,6 +106,50 @@ TEST_CASE(
   CHECK(along(-1, -3) == doctest::Approx(-1));
 }
 
+TEST_CASE(
+    "derivatives by bounds do not hang on the units of rows, multipliers that are not unique included") {
+  const Vector unit{{1, 0x1p30, 0x1p100, 0x1p-30, 0x1p100, 1}};
+  int chosen = 0;
+  for (const Difficulty difficulty : {Difficulty::repeated_rows, Difficulty::two_sided_rows})
+    for (unsigned seed = 0; seed < 25; ++seed) {
+      CAPTURE(seed);
+      const NearestPointProblem plain = oracles::planted_problem(seed, 4, 6, difficulty).problem;
+      const RowMatrix U = unit.asDiagonal() * plain.U.dense();
+      const NearestPointProblem scaled{plain.A, plain.z, convex::ConstraintRows(U),
+                                       unit.cwiseProduct(plain.s), plain.two_sided};
+      const Vector still = Vector::Zero(4), ds = integers(seed + 100, 6);
+      const auto along = [&](const NearestPointProblem& problem, const Vector& change) {
+        const Solution solution = convex::active_set(problem);
+        const Multipliers all = convex::multipliers(problem, solution, 1e-9, false);
+        chosen += !all.unique;
+        return convex::directional_derivative(problem, solution, all, still, change);
+      };
+      const auto by_plain = along(plain, ds), by_scaled = along(scaled, unit.cwiseProduct(ds));
+      REQUIRE(by_plain.has_value() == by_scaled.has_value());
+      if (by_plain) CHECK((by_plain->acceleration - by_scaled->acceleration).norm() <= 1e-8);
+    }
+  CHECK(chosen > 20);
+}
+
+TEST_CASE("multipliers that are unique and do not stay so have no derivative") {
+  // R = (1, 0) is the push of the first row alone; (1, t) is one of the first with either of the others.
+  const NearestPointProblem corner{convex::Metric::identity(2),
+                                   Vector{{-1.0, 0.0}},
+                                   convex::ConstraintRows(RowMatrix{{1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}),
+                                   Vector::Zero(3),
+                                   {}};
+  const Solution resting = convex::active_set(corner);
+  const Multipliers all = convex::multipliers(corner, resting, 1e-9, false);
+  REQUIRE(all.unique);
+  const auto along = [&](const Vector& dz) {
+    return *convex::directional_derivative(corner, resting, all, dz, Vector::Zero(3));
+  };
+  CHECK_FALSE(along(Vector{{0.0, -1.0}}).multipliers);
+  CHECK(along(Vector{{0.0, -1.0}}).reaction == Vector{{0.0, 1.0}});
+  REQUIRE(along(Vector{{-1.0, 0.0}}).multipliers);
+  CHECK(*along(Vector{{-1.0, 0.0}}).multipliers == Vector{{1.0, 0.0, 0.0}});
+}
+
 TEST_CASE("forces below the least margin change no contact, and a ball leaves its floor at its weight") {
   // m = 4, z = -40: the contact opens at a force 40 upwards, whose norm is 40 / sqrt(4).
   const NearestPointProblem ball{convex::Metric::diagonal(Vector{{4.0}}),
