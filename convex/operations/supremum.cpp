@@ -337,8 +337,11 @@ Value settled_value(const Value& by_program, const std::optional<Vector>& x, con
   const bool decided = exact || (std::isfinite(found.value) && found.error <= settled * size);
   const OneAtATime question(OneAtATime::Kind::supremum);
   if (decided || !question.first()) return found;
-  const Search searched = search(f, v, x);
-  const Value& other = searched.value;
+  Search searched = search(f, v, x);
+  Value& other = searched.value;
+  // The conjugate of a support function is 0 or +inf: a bound between them tells neither.
+  if (f.facts().support && other.value < infinity && !(other.value + other.error <= settled * small))
+    other = {0, infinity};
   if (!std::isfinite(found.value)) {
     // A program says +inf where it finds the domains apart, which rounding can feign, and -inf on one look.
     if (found.value == infinity && recedes_far_out(f, v)) return {infinity, 0};

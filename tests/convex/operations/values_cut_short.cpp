@@ -6,6 +6,7 @@
 #include "convex/functions/decomposition.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/gamma0/work_limit.hpp"
+#include "convex/infinity.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 using convex::Function;
@@ -130,6 +131,21 @@ TEST_CASE("the conjugate of a maximum at a slope that is almost 0 is no less tha
     CHECK(found.error <= 1e-9);
     for (const double x : {-1.0, -0.5, -0.3236, -0.25, 0.0, 1.0})
       CHECK(found.value >= v * x - f(Vector::Constant(1, x)) - 1e-9);
+  }
+}
+
+TEST_CASE("the conjugate of a support function is 0 or inf, and open within the membership tolerance") {
+  // Beyond the domain by 5e-11, where lower bounds grow without end.
+  for (const char* text :
+       {"sum(norm1(), total_variation(0.5))", "pointwise_max(norm1(), total_variation(1.25))"}) {
+    CAPTURE(text);
+    const Function g = samples::function(text, 3).conjugate();
+    for (const double beyond : {5e-11, 1e-10, 3e-10, 1e-6}) {
+      CAPTURE(beyond);
+      const Value found = g.evaluate(Vector{{1.5 + beyond, -1, -1.5 - beyond}});
+      CHECK((found.value == 0 || found.value == convex::infinity));
+      CHECK((found.value > 0 || std::isinf(found.error)));
+    }
   }
 }
 
