@@ -8,6 +8,7 @@
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/held_point.hpp"
+#include "convex/nearest_point/proof/kept_point.hpp"
 #include "convex/nearest_point/proof/open_rows.hpp"
 #include "convex/nearest_point/proof/sparse_enclosure.hpp"
 #include "convex/nearest_point/working_set/working_set.hpp"
@@ -88,14 +89,6 @@ EntryRadii ordinary(EntryRadii radii) {
   radii.z = radii.z.unaryExpr(raise);
   radii.s = radii.s.unaryExpr(raise);
   return radii;
-}
-
-/// The rows with a multiplier, when they are few enough to be independent.
-std::vector<Index> loaded_rows(const Solution& solution) {
-  std::vector<Index> rows;
-  for (Index a = 0; a < solution.lambda.size(); ++a)
-    if (solution.lambda[a] != 0) rows.push_back(a);
-  return rows;
 }
 
 /// Rows to hold, with multipliers.
@@ -259,14 +252,21 @@ std::optional<double> bound_within(const NearestPointProblem& problem, const Sol
                                    const RadiiOf& radii) {
   if (!is_ordinary_problem(problem, solution)) return std::nullopt;
   const Guess active{solution.basis.empty() ? loaded_rows(solution) : solution.basis, solution.lambda};
-  if (!is_dense_size(problem, active.rows.size()))
-    return sparse_enclosed_error(problem, radii, solution, active.rows);
+  if (!is_dense_size(problem, active.rows.size())) {
+    const auto bound = sparse_enclosed_error(problem, radii, solution, active.rows);
+    return bound ? bound : sparse_kept_error(problem, radii, solution);
+  }
   const auto P = preconditioned(problem.A, radii);
   if (!P || !(P->delta < 0.5)) return std::nullopt;
-  if (auto bound = bound_from(problem, radii, *P, solution, active)) return bound;
-  if (auto bound = bound_with_disguised(problem, radii, *P, solution, active)) return bound;
-  auto chosen = independent(problem, solution);
-  return chosen ? bound_from(problem, radii, *P, solution, *chosen) : std::nullopt;
+  auto bound = bound_from(problem, radii, *P, solution, active);
+  if (!bound) bound = bound_with_disguised(problem, radii, *P, solution, active);
+  if (!bound)
+    if (const auto chosen = independent(problem, solution))
+      bound = bound_from(problem, radii, *P, solution, *chosen);
+  const auto kept = residual_of_kept_point(problem, radii, solution);
+  if (!kept) return bound;
+  const double of_kept = dual_length_above(*P, kept->r1, kept->r1_radius);
+  return bound && *bound <= of_kept ? bound : of_kept;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "convex/exact/rounding_bounds.hpp"
 #include "convex/linear_algebra/sparse_cholesky.hpp"
+#include "convex/nearest_point/proof/kept_point.hpp"
 #include "convex/nearest_point/reductions/balanced_problem.hpp"
 
 namespace convex::inline proof {
@@ -106,6 +107,11 @@ std::optional<double> least_of_rows(const SparseRows& U, double uncertainty) {
   return below(below(singular) * singular);
 }
 
+/// ||r1||_(A⁻¹) at most, alpha below the eigenvalues of the scaled A.
+double imbalance_above(const Balanced& scaled, const KktResidual& rest, double alpha) {
+  return above(norm_above(scaled.d.cwiseProduct(rest.r1.cwiseAbs() + rest.r1_radius)) / std::sqrt(alpha));
+}
+
 bool slacks_are_positive(const NearestPointProblem& problem, const RadiiOf& radii, const Vector& q,
                          const Vector& reach, const std::vector<bool>& is_held) {
   const Vector size = above(1) * (q.cwiseAbs() + reach);
@@ -156,12 +162,8 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
   if (!sigma) return std::nullopt;
   const double beta = above(row_sum_above(scaled.A) + loose);
 
-  const Vector lambda = solution.lambda(held);
-  const KktResidual rest =
-      kkt_residual(problem, radii, held,
-                   {solution.q, Vector::Zero(solution.q.size()), lambda, Vector::Zero(lambda.size()), {}, 0});
-  const double imbalance =
-      above(norm_above(scaled.d.cwiseProduct(rest.r1.cwiseAbs() + rest.r1_radius)) / std::sqrt(*alpha));
+  const KktResidual rest = residual_as_it_stands(problem, radii, solution, held);
+  const double imbalance = imbalance_above(scaled, rest, *alpha);
   const double gap =
                    held.empty() ? 0 : norm_above(scaled.r.cwiseProduct(rest.r2.cwiseAbs() + rest.r2_radius)),
                weak = above(beta / *sigma);
@@ -180,6 +182,16 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
   const Vector reach = scaled.d * above(radius / std::sqrt(*alpha));
   if (!slacks_are_positive(problem, radii, solution.q, reach, is_held)) return std::nullopt;
   return radius;
+}
+
+std::optional<double> sparse_kept_error(const NearestPointProblem& problem, const RadiiOf& radii,
+                                        const Solution& solution) {
+  const auto kept = residual_of_kept_point(problem, radii, solution);
+  if (!kept || problem.A.kind() == MetricKind::dense) return std::nullopt;
+  const Balanced scaled = balanced(problem, {});
+  if (!is_ordinary(scaled.A.coeffs())) return std::nullopt;
+  const auto alpha = least_eigenvalue_below(scaled.A, 0);
+  return alpha ? std::optional(imbalance_above(scaled, *kept, *alpha)) : std::nullopt;
 }
 
 }  // namespace convex::inline proof

@@ -14,6 +14,9 @@ namespace convex::inline proof {
 std::optional<double> sparse_enclosed_error(const NearestPointProblem&, const RadiiOf&, const Solution&,
                                             const std::vector<Index>& held);
 
+/// The same from a point that doubles hold (`residual_of_kept_point`), without the rows.
+std::optional<double> sparse_kept_error(const NearestPointProblem&, const RadiiOf&, const Solution&);
+
 /// A number below all eigenvalues of M + E, M symmetric and sparse, for every symmetric E with row sums of
 /// |E| at most `uncertainty`; none when no positive one was found. A Cholesky factor L of M - shift I that is
 /// found in doubles without a negative pivot is the exact one of a matrix within gamma |L||L|ᵀ (Higham 2002,

@@ -100,6 +100,39 @@ TEST_CASE("thousands of coordinates are proved with sparse factors") {
   CHECK(chain.problem.A.norm(solution.q - chain.solution.hi - chain.solution.lo) <= *of_chain);
 }
 
+TEST_CASE("a point that doubles hold is proved however its rows depend on each other, dense or sparse") {
+  for (const Index n : {60, 2000}) {
+    // Beads on a floor and on each other, every row written thrice, and the whole between two walls.
+    std::vector<Eigen::Triplet<double>> entries;
+    Index m = 0;
+    for (int times = 0; times < 3; ++times)
+      for (Index i = 0; i < n; ++i, ++m) {
+        entries.emplace_back(m, i, times + 1);
+        if (i > 0) entries.emplace_back(m, i - 1, -times - 1);
+      }
+    for (Index i = 0; i < n; i += 2, ++m) entries.emplace_back(m, i, -1);
+    convex::SparseRows U(m, n);
+    U.setFromTriplets(entries.begin(), entries.end());
+    const NearestPointProblem problem{convex::Metric::sparse(second_differences(n)),
+                                      Vector::LinSpaced(n, -1, -3),
+                                      convex::ConstraintRows(U),
+                                      Vector::Zero(m),
+                                      {}};
+    const Solution solution = convex::automatic(problem, {});
+    CHECK(solution.q.isZero(0));  // every gap is 0
+    const auto bound = convex::enclosed_error(problem, solution);
+    REQUIRE(bound);
+    CHECK(*bound <= 1e-12 * problem.A.dual_norm(problem.z));
+    Solution spoilt = solution;
+    spoilt.q[n / 2] += 1e-3;
+    const auto of_spoilt = convex::enclosed_error(problem, spoilt);
+    CHECK((!of_spoilt || *of_spoilt >= problem.A.norm(spoilt.q)));
+    spoilt = solution;
+    spoilt.lambda[0] = -1;
+    CHECK_FALSE(convex::sparse_kept_error(problem, convex::RadiiOf(nullptr), spoilt));
+  }
+}
+
 TEST_CASE("the bound from sparse factors holds for every problem within radii") {
   const NearestPointProblem problem = string_on_floor(18);
   const Solution solution = convex::active_set(problem);
