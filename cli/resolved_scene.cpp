@@ -81,10 +81,14 @@ mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::Gaus
   const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
   // Rows that were added are not in the text.
   if (!as_written) return mechanics::solve(scene.problem, options);
+  bool was_too_long = false;
   if (const std::string_view why = why_not_in_doubles(scene); is_default(options) && !why.empty()) {
-    if (mechanics::GaussSolution exact; is_decided_by_text(exact, scene, options, why)) return exact;
+    mechanics::GaussSolution exact;
+    if (is_decided_by_text(exact, scene, options, why)) return exact;
+    was_too_long = exact.was_too_long;
   }
   mechanics::GaussSolution found = mechanics::solve(scene.problem, options);
+  found.was_too_long = was_too_long;
   if (!scene.written)  // of a mechanism z is rounded, too, and it is asked where that is known
     mechanics::leave_out_pressing(found.touching, scene.problem, found.primal, found.multipliers,
                                   convex::Vector::Zero(scene.problem.dimension()));

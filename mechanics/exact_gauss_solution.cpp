@@ -189,7 +189,8 @@ bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact
                most = options.accuracy.limit * convex::most_word_operations - of_ranges;
   if (convex::word_operations(exact, held) > most) return false;
   ExactGaussSolution decided = solve_exactly(exact, problem, options, rows_decided(found.primal), most);
-  if (decided.primal.status == convex::Status::gave_up || !decided.is_whole) return false;
+  found.was_too_long = decided.primal.status == convex::Status::gave_up || !decided.is_whole;
+  if (found.was_too_long) return false;
   convex::Solution& answer = decided.rounded.primal;
   answer.method = "active-set";
   answer.model = std::move(found.primal.model);
@@ -223,8 +224,10 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
   // What fractions could not do with the doubles they are not asked again for numbers that are as long.
   const auto held = static_cast<std::size_t>(std::min(problem.rows(), problem.dimension()));
   const bool was_too_long = !problem.radii && !is_solved && !found.primal.undecided.empty();
-  if (exact && !(was_too_long && 2 * convex::word_operations(*exact, held) >
-                                     convex::word_operations(convex::exact_problem(problem), held)))
+  const bool is_known = found.was_too_long && rows_decided(found.primal).empty();
+  if (exact && !is_known &&
+      !(was_too_long && 2 * convex::word_operations(*exact, held) >
+                            convex::word_operations(convex::exact_problem(problem), held)))
     solve_on_exact_data(found, *exact, problem, options, open);
   if (found.as_written) return;
   // Where the answer is at rounding it is the tolerance that is too small.

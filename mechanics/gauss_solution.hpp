@@ -40,6 +40,8 @@ struct GaussSolution {
   std::optional<Reduced> reduced;  ///< when accuracy.reduce is off
   /// The answer is that of the numbers as they were written, in fractions; their doubles did not decide it.
   bool as_written = false;
+  /// They were asked for it so, from the rows that doubles tell, and it took more than their limit.
+  bool was_too_long = false;
   /// Those numbers, each rounded once, where their doubles as evaluated are others; or null.
   std::shared_ptr<const convex::NearestPointProblem> data;
 };

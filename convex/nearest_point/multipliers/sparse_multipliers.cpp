@@ -66,8 +66,8 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   }
   SparseRows U(m, k);
   U.setFromTriplets(entries.begin(), entries.end());
-  const Solution found =
-      sparse_active_set({Metric::identity(k), -start, ConstraintRows(std::move(U)), s, indices_below(n)});
+  const Solution found = sparse_active_set(
+      {Metric::identity(k), -start, ConstraintRows(std::move(U)), s, indices_below(n)}, {.limit = 0});
   if (found.status != Status::solved) return false;
   const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
   for (Index j = 0; j < k; ++j) {
