@@ -10,6 +10,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "mechanics/farkas_laws.hpp"
 #include "mechanics/gauss_function.hpp"
+#include "mechanics/reaction_law.hpp"
 #include "mechanics/units.hpp"
 
 namespace mechanics {
@@ -301,6 +302,7 @@ LawReport laws_as_it_stands(const convex::NearestPointProblem& problem, const Ga
   const Judged j = judged(problem, solution);
   feasibility_laws(j, report);
   balance_law(j, report);
+  report.checks.push_back(reaction_law(problem, solution));
   decomposition_law(j, dual_route(j), report);
   nearest_reaction_law(j, report);
   conjugacy_law(j, report);

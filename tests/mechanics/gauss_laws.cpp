@@ -98,6 +98,12 @@ const Planted table[] = {
        solution.multipliers.least_norm *= 1.5;
      },
      {"A q'' = z +", "conjugacy f(x) + g(y)"}},
+    {"a reaction off by a millionth in one coordinate",
+     [](const NearestPointProblem& problem, GaussSolution& solution) {
+       solution.reaction[0] += 1e-6 * std::sqrt(problem.A.diagonal()[0]) *
+                               std::max(solution.primal.acceleration_norm, solution.primal.force_norm);
+     },
+     {"R is the sum of lambda_a u_a"}},
     {"the free acceleration",
      [](const NearestPointProblem& problem, GaussSolution& solution) {
        solution.primal.q = problem.A.solve(problem.z);
