@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "convex/double_double.hpp"
+#include "convex/exact/exact_sum.hpp"
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 
 namespace mechanics {
@@ -71,8 +71,8 @@ LawReport farkas_laws(const NearestPointProblem& problem, const Vector& w) {
   report.checks.push_back(check_that("w.U = 0: the accelerations cancel",
                                      problem.U.transpose_times(w).cwiseAbs().maxCoeff(),
                                      tolerance * terms.maxCoeff()));
-  convex::DoubleDouble left;
-  for (Index a = 0; a < w.size(); ++a) left = add(left, convex::two_product(w[a], problem.s[a]));
+  convex::ExactSum left;
+  for (Index a = 0; a < w.size(); ++a) left.add_product(w[a], problem.s[a]);
   const std::string name = "w.s > 0: what is left is a contradiction";
   // Numbers that are exact may be contradictory by less: then fractions decided it. Of rounded ones nobody
   // can.
@@ -82,7 +82,7 @@ LawReport farkas_laws(const NearestPointProblem& problem, const Vector& w) {
   else if (undecided > 0 && std::abs(left.value()) <= undecided)
     report.no_evidence.emplace_back(name + " below the rounding of w and s to doubles");
   else
-    report.checks.push_back(check_that(name, left.value() > 0 ? 0 : 1, 0));
+    report.checks.push_back(check_that(name, left.sign() > 0 ? 0 : 1, 0));
   return report;
 }
 

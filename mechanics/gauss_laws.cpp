@@ -292,10 +292,6 @@ LawReport laws_as_it_stands(const convex::NearestPointProblem& problem, const Ga
   if (solution.primal.status == convex::Status::infeasible) {
     convex::NearestPointProblem judged_rows = problem;
     if (solution.as_written) judged_rows.radii.reset();  // decided in fractions on the numbers as written
-    const double largest = problem.s.cwiseAbs().maxCoeff();
-    const double unit = largest > 0 ? std::exp2(std::clamp(std::ilogb(largest), -1000, 1000)) : 1;
-    judged_rows.s /= unit;
-    if (judged_rows.radii) judged_rows.radii->s /= unit;
     return farkas_laws(judged_rows, solution.primal.farkas);
   }
   if (solution.multipliers.least_norm.size() != problem.rows()) return report;

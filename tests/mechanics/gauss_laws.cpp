@@ -188,6 +188,25 @@ TEST_CASE(
   CHECK(mechanics::farkas_laws(problem, weights).all_passed());
 }
 
+TEST_CASE("no law fails the weights of a contradiction because its bounds are far below others") {
+  // 3 c_0 + c_1 is 0 >= 1.8e-315, beside a bound of 1e10.
+  RowMatrix U(3, 2);
+  U << -1, -1, 3, 3, -2, -3;
+  const NearestPointProblem problem{convex::Metric::diagonal(Vector{{5, 5}}),
+                                    Vector{{5e-10, 8e-10}},
+                                    convex::ConstraintRows(U),
+                                    Vector{{1e-300, -2.999999999999998e-300, 1e10}},
+                                    {}};
+  const GaussSolution solution = mechanics::solve(problem, {});
+  REQUIRE(solution.primal.status == convex::Status::infeasible);
+  const LawReport report = mechanics::gauss_laws(problem, solution);
+  INFO(report.text());
+  CHECK(report.all_passed());
+  GaussSolution wrong = solution;
+  wrong.primal.farkas[1] *= 1 + 1e-9;
+  CHECK_FALSE(mechanics::gauss_laws(problem, wrong).all_passed());
+}
+
 TEST_CASE("no law fails a right answer because A is ill-conditioned") {
   for (const double apart : {1e-1, 1e-3, 1e-5}) {
     CAPTURE(apart);
