@@ -49,8 +49,9 @@ void decide_on_exact_data(GaussSolution&, const convex::NearestPointProblem&, co
                           const std::function<std::optional<convex::ExactProblem>()>& data);
 
 /// The exact solution of exact data, rounded, where that takes at most accuracy.limit times
-/// `convex::most_word_operations`; else false, and nothing is changed but `was_too_long`. open: why it is asked for. The model
-/// stays that of the answer before, if there is one: what fractions were asked is said of its islands.
+/// `convex::most_word_operations`; else false, and nothing is changed but `was_too_long`. open: why it is
+/// asked for. The model stays that of the answer before, if there is one: what fractions were asked is said
+/// of its islands.
 bool solve_on_exact_data(GaussSolution&, const convex::ExactProblem&, const convex::NearestPointProblem&,
                          const GaussOptions&, std::string_view open);
 

@@ -39,7 +39,8 @@ struct FirstChange {
   bool closes = false;
 };
 
-/// Along a derivative by dz alone. None when no row ever does, or multipliers are not unique or do not stay so.
+/// Along a derivative by dz alone. None when no row ever does, or multipliers are not unique or do not stay
+/// so.
 std::optional<FirstChange> first_change(const NearestPointProblem&, const Solution&, const Multipliers&,
                                         const Vector& dz, const Derivative& by);
 
