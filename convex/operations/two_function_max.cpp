@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/composite/metric_difference.hpp"
 #include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/weight_bracket.hpp"
+#include "convex/operations/weight_range.hpp"
+#include "convex/operations/weighted_mean.hpp"
 
 namespace convex::inline operations {
 namespace {
-
-constexpr double least_weight = 1e-30;
-constexpr int most_steps = 80;
-/// Brackets shorter than this part of t, or of 1 - t, have ended.
-constexpr double shortest = 2 * unit_roundoff;
 
 /// Of a weight so small 1 less the other has lost these digits.
 constexpr double nearly_nothing = 1e-3;
@@ -33,91 +32,23 @@ struct At {
   Function mean;
   Prox prox;
   double difference = 0;
-  double noise = 0;  ///< of the difference
-  Value above;       ///< of the maximum above the mean with these weights
-  double size = 0;   ///< of the larger value
+  double noise = 0;            ///< of the difference
+  Value above;                 ///< of the maximum above the mean with these weights
+  double size = 0;             ///< of the larger value
+  double rounding = 0;         ///< of the weights, as one of t
+  double residual = infinity;  ///< from z, in ||·||_W, to the point whose prox x is
+  double move = infinity;      ///< of the difference, by what x misses of the prox at z
+
+  ProxOfMean at_z() const { return {t, rounding, prox.error_bound, difference, noise + move}; }
+  ProxOfMean beside_z() const { return {t, rounding, residual, difference, noise}; }
+  bool is_sure() const { return std::abs(difference) > noise; }
 };
-
-/// A bracket of the root of a decreasing function on [0, 1]: the chord's root, the value of an end that stays
-/// lessened (Anderson and Björck 1973); the middle where two steps did not shorten it to a quarter, or the
-/// ends' values are far apart. Middles are of the exponents of t, or of 1 - t, where these are far apart.
-class Bracket {
- public:
-  Bracket(double low, double high, double of_low, double of_high)
-      : low_(low), high_(high), of_low_(of_low), of_high_(of_high) {}
-
-  double next() {
-    constexpr double far_apart = 1e3, least_gain = 0.25;
-    if (++steps_ % 2 == 0) {
-      slow_ = high_ - low_ > least_gain * width_;
-      width_ = high_ - low_;
-    }
-    const double t = low_ + (high_ - low_) * (of_low_ / (of_low_ - of_high_));
-    const double ratio = std::abs(of_low_ / of_high_);
-    const bool uneven = is_wide() && (ratio > far_apart || ratio < 1 / far_apart);
-    const bool plain = !slow_ && !uneven && t > low_ && t < high_;
-    slow_ = false;
-    return plain ? t : middle();
-  }
-  /// Another t where nothing is known at this one.
-  double beside(double t) const { return t + 0.375 * (high_ - t); }
-  void narrow(double t, double value) {
-    constexpr double least_part = 0.1;
-    const bool is_low = value > 0;
-    double &end = is_low ? low_ : high_, &of_end = is_low ? of_low_ : of_high_;
-    if (same_side_ == (is_low ? 1 : -1)) {
-      const double part = 1 - value / of_end;
-      (is_low ? of_high_ : of_low_) *= part > least_part ? part : 0.5;
-    }
-    same_side_ = is_low ? 1 : -1;
-    end = t;
-    of_end = value;
-  }
-
- private:
-  static constexpr double far = 16;
-  bool is_wide() const { return low_ < high_ / far || 1 - high_ < (1 - low_) / far; }
-  double middle() const {
-    constexpr double most_at_once = 1e-3;
-    const double from_one = 1 - high_;
-    if (low_ < high_ / far) return std::max(std::sqrt(low_) * std::sqrt(high_), high_ * most_at_once);
-    if (from_one < (1 - low_) / far)
-      return 1 - std::max(std::sqrt(from_one) * std::sqrt(1 - low_), (1 - low_) * most_at_once);
-    return low_ + (high_ - low_) / 2;
-  }
-  double low_, high_, of_low_, of_high_, width_ = 1;
-  int same_side_ = 0, steps_ = 0;
-  bool slow_ = false;
-};
-
-/// weight · f, a maximum as that of its parts.
-Function weighted(const Function& f, double weight) {
-  if (weight == 1) return f;
-  std::vector<Function> parts = parts_of_max(f);
-  if (parts.empty()) return scale(f, weight);
-  for (Function& part : parts) part = scale(part, weight);
-  return proper_max(std::move(parts));
-}
-
-/// (1 - t) f + t g, and the weights.
-struct Mean {
-  double of_f, of_g;
-  Function sum;
-};
-Mean mean_of(const Function& f, const Function& g, double t) {
-  const double of_f = f.facts().finite ? 1 - t : std::max(1 - t, least_weight);
-  const double of_g = g.facts().finite ? t : std::max(t, least_weight);
-  std::vector<Function> terms;
-  if (of_f > 0) terms.push_back(weighted(f, of_f));
-  if (of_g > 0) terms.push_back(weighted(g, of_g));
-  return {of_f, of_g, proper_sum(terms)};
-}
 
 std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W,
-                     const Look& look) {
-  const auto [of_f, of_g, mean] = mean_of(f, g, t);
+                     const Look& look, TermOrder order = TermOrder::given) {
+  const auto [of_f, of_g, mean] = weighted_mean(f, g, t, order);
   WorkLimit::count(WorkLimit::of_a_program);
-  At found{t, mean, mean.prox(z, W, look), 0, 0, {}, 0};
+  At found{t, mean, mean.prox(z, W, look), 0, 0, {}, 0, 0, infinity, infinity};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
   const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
   found.difference = of_g_there.value - of_f_there.value;
@@ -126,6 +57,7 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
   if (std::isnan(found.difference)) return std::nullopt;
   const double missed = found.difference > 0 ? of_f : -of_g;
   found.above = {missed * found.difference, std::abs(missed) * found.noise};
+  found.rounding = unit_roundoff * t + (of_f - (1 - t)) + (of_g - t);
   return found;
 }
 
@@ -142,6 +74,45 @@ std::optional<At> near_end(const Function& f, const Function& g, bool right, con
     return from_end == 0 || on_its_side ? found : std::nullopt;
   }
   return std::nullopt;
+}
+
+/// Within `miss` of x, in ||·||_W, f moves by no more than this: at the corners of a cross-polytope around
+/// the ball it is largest, and by convexity it falls from x by no more than it rises on the other side.
+/// Corners outside the domain tell nothing; the slope at x does.
+double move_of_value(const Function& f, const Vector& x, double miss, const Metric& W) {
+  const Index n = x.size();
+  const double here = f(x), reach = miss * std::sqrt(static_cast<double>(n));
+  double most = 0;
+  bool is_inside = true;
+  for (Index i = 0; i < n; ++i) {
+    const Vector move = reach * W.unwhiten(Vector::Unit(n, i));
+    for (const Vector& corner : {Vector(x + move), Vector(x - move)}) {
+      const double there = f(corner);
+      if (std::isfinite(there)) most = std::max(most, there - here);
+      is_inside = is_inside && std::isfinite(there);
+    }
+  }
+  if (is_inside) return most;
+  const std::optional<Vector> slope = f.subgradient(x);
+  return slope ? std::max(most, miss * W.dual_norm(*slope)) : most;
+}
+
+/// W(x - z) + v, v the mean of the slopes of f and g at x: the dual norm is how far from z the point is whose
+/// prox x is.
+struct Residual {
+  Vector covector, rounding;
+  double norm(const Metric& W, const MetricScales& scales) const {
+    return W.dual_norm(covector) + scales.dual_norm_of_size(rounding, false);
+  }
+};
+std::optional<Residual> residual_of_mean(const Function& f, const Function& g, double t, const Vector& x,
+                                         const Vector& z, const Metric& W) {
+  constexpr double of_slopes = 4;
+  const auto of_f = f.subgradient(x), of_g = g.subgradient(x);
+  if (!of_f || !of_g) return std::nullopt;
+  const Vector moved = composite::metric_difference(W, x, z);
+  const Vector size = moved.cwiseAbs() + (1 - t) * of_f->cwiseAbs() + t * of_g->cwiseAbs();
+  return Residual{moved + (1 - t) * *of_f + t * *of_g, of_slopes * unit_roundoff * size};
 }
 
 /// What is left of the difference, or may be.
@@ -174,7 +145,7 @@ std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Ve
     for (std::size_t j = 0; j < parts.size(); ++j)
       if (j != k && !parts[j].facts().finite) terms.push_back(weighted(parts[j], least_weight));
     const Function mean = terms.size() == 1 ? parts[k] : proper_sum(terms);
-    At alone{0, mean, mean.prox(z, W, look), 0, 0, {}, 0};
+    At alone{0, mean, mean.prox(z, W, look), 0, 0, {}, 0, 0, infinity, infinity};
     if (alone.prox.status != Status::solved || alone.prox.x.size() != z.size()) continue;
     const Value own = parts[k].evaluate(alone.prox.x);
     const auto is_below = [&](const Function& other) {
@@ -190,7 +161,54 @@ std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Ve
 
 namespace {
 
+/// How far what the prox of a mean misses may move g - f, and the part of its residual that it is.
+struct Scatter {
+  double move = 0, residual = 0;
+  /// Of another prox near to this.
+  double at(double other) const { return move * (other > residual ? other / residual : 1); }
+};
+
+/// The same mean with its terms in the other order comes another way to the same prox, and what the two
+/// differ by is the error of either, as their residuals are to each other. Where that way leads nowhere, it
+/// is what the residual is worth along the path of x over t, whose slope is that of the prox by its residual;
+/// where that is not known either, the most that f and g move by within the error bound.
+Scatter scatter(const Function& f, const Function& g, const At& from, const Vector& path, const Vector& z,
+                const Metric& W, const Look& look, const MetricScales& scales) {
+  const Vector& x = from.prox.x;
+  const double miss = from.prox.error_bound;
+  const auto own = residual_of_mean(f, g, from.t, x, z, W);
+  const auto turned = x.isZero(0) ? std::nullopt : at(f, g, from.t, z, W, look, TermOrder::turned);
+  if (turned && std::isfinite(turned->difference)) {
+    const auto other = residual_of_mean(f, g, from.t, turned->prox.x, z, W);
+    const double others = other ? other->norm(W, scales) : 0;
+    const double part = own && other ? from.residual / (from.residual + others) : 1;
+    double rounded = 0;
+    for (const Function& one : {f, g})
+      if (const auto slope = one.subgradient(x)) rounded += slope->cwiseAbs().dot(x.cwiseAbs());
+    const double apart = std::abs(turned->difference - from.difference);
+    return {unit_roundoff * rounded + safety * part * apart, from.residual};
+  }
+  if (own && path.size() > 0 && !x.isZero(0)) {
+    const double worth = std::abs(path.dot(own->covector)) + path.cwiseAbs().dot(own->rounding);
+    return {safety * worth, from.residual};
+  }
+  return {move_of_value(f, x, miss, W) + move_of_value(g, x, miss, W), from.residual};
+}
+
 enum class Order { given, reversed };
+
+/// How far from the weight of a prox the sign of g - f is sure, as far as its fall over t tells, or where t*
+/// is known to be so near that it counts no more than what the prox itself misses.
+double step_to_sure_sign(const At& from, double fall) {
+  constexpr double more = 2;
+  const double noise = from.noise + (std::isfinite(from.move) ? from.move : 0);
+  const double open = std::abs(from.difference) + noise;
+  const double unfelt = from.prox.error_bound * (from.prox.error_bound / open);
+  const double least = shortest_bracket * std::min(from.t, 1 - from.t);
+  double step = std::max(least, std::isfinite(unfelt) ? unfelt : 0.0);
+  if (fall > 0) step = std::max(step, more * (open + noise) / fall);
+  return step;
+}
 
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look, Order order) {
@@ -200,20 +218,38 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   std::optional<At> high = near_end(f, g, true, z, W, look);
   if (high && high->t == 1 && high->difference - high->noise >= 0) return named(*high);
   if (!low || !high) return std::nullopt;
+  WeightRange range;
+  const MetricScales scales = metric_scales(W);
+  std::vector<At> seen;
+  std::optional<Scatter> scattered;
+  Vector path;  // of x over t, while the difference of the ends is more than noise
+  const auto take = [&](At found) {
+    constexpr double as_good = 4;
+    const auto residual = residual_of_mean(f, g, found.t, found.prox.x, z, W);
+    if (residual) found.residual = residual->norm(W, scales);
+    if (!(found.residual <= as_good * found.prox.error_bound)) {
+      if (!scattered) scattered = scatter(f, g, found, path, z, W, look, scales);
+      found.move = scattered->at(found.residual);
+    }
+    range.learn(found.at_z());
+    range.learn(found.beside_z());
+    seen.push_back(std::move(found));
+  };
   double moved_per_difference = 0;  // while the difference of the ends is more than noise
+  double fall = 0;                  // of the difference over t, likewise
   // Where noise hides the sign at an end the root is there or beyond, as far as is known.
-  Bracket bracket{low->t, high->t, std::max(low->difference, low->noise),
-                  std::min(high->difference, -high->noise)};
-  // The weights that the root is between for sure.
-  const auto is_sure = [](const At& found) { return std::abs(found.difference) > found.noise; };
-  Vector sure_low = low->prox.x, sure_high = high->prox.x;
-  for (int step = 0; step < most_steps && !WorkLimit::passed(); ++step) {
+  WeightBracket bracket{low->t, high->t, std::max(low->difference, low->noise),
+                        std::min(high->difference, -high->noise)};
+  for (int step = 0; step < most_weights && !WorkLimit::passed(); ++step) {
     const double drop = low->difference - high->difference;
     const double apart = W.norm(low->prox.x - high->prox.x);
-    if (std::isfinite(drop) && drop > above_noise * (low->noise + high->noise))
+    if (std::isfinite(drop) && drop > above_noise * (low->noise + high->noise)) {
       moved_per_difference = apart / drop;
-    if (!is_sure(*low) && !is_sure(*high)) break;  // what they say of the root is noise
-    if (!(high->t - low->t > shortest * std::min(high->t, 1 - low->t))) break;
+      fall = drop / (high->t - low->t);
+      path = (high->prox.x - low->prox.x) / (high->t - low->t);
+    }
+    if (!low->is_sure() && !high->is_sure()) break;  // what they say of the root is noise
+    if (!(high->t - low->t > shortest_bracket * std::min(high->t, 1 - low->t))) break;
     // The weight of f, 1 - t, is known to roundings of 1: the other way round it is t.
     if (1 - low->t < nearly_nothing && order == Order::given)
       return prox_of_two_function_max(g, f, z, W, look, Order::reversed);
@@ -233,16 +269,39 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
       break;
     }
     bracket.narrow(middle->t, middle->difference);
-    if (is_sure(*middle)) (middle->difference > 0 ? sure_low : sure_high) = middle->prox.x;
     (middle->difference > 0 ? low : high) = std::move(middle);
   }
-  // Both agree but for the distance between them; the nearer one to equality is taken.
   const bool take_low = std::abs(low->difference) <= std::abs(high->difference);
-  Prox made = named(take_low ? *low : *high);
-  const double open = low->t == high->t ? left(*low) : std::max(low->noise, high->noise);
-  made.error_bound =
-      std::max(low->prox.error_bound, high->prox.error_bound) + 2 * W.norm(low->prox.x - high->prox.x) +
-      (moved_per_difference > 0 ? safety * moved_per_difference * open : 2 * W.norm(sure_low - sure_high));
+  take(take_low ? *low : *high);
+  if (high->t != low->t) take(take_low ? *high : *low);
+  const auto error_of = [&](const At& found) {
+    return std::min(range.error_of(found.at_z()), range.error_of(found.beside_z()));
+  };
+  // Of those that are as near, that whose mean is nearest to the maximum.
+  const auto best = [&] {
+    constexpr double as_near = 2;
+    double least = infinity;
+    for (const At& one : seen) least = std::min(least, error_of(one));
+    const At* found = &seen.front();
+    for (const At& one : seen) {
+      const bool is_near = error_of(one) <= as_near * least, was_near = error_of(*found) <= as_near * least;
+      if (is_near && (!was_near || one.above.value < found->above.value)) found = &one;
+    }
+    return *found;
+  };
+  for (const bool below : {true, false}) {
+    const At nearest = best();
+    double step = step_to_sure_sign(nearest, fall);
+    for (double wider = 8; !WorkLimit::passed(); step *= wider, wider *= wider) {
+      const double open = below ? nearest.t - range.low() : range.high() - nearest.t;
+      if (!(open > step)) break;
+      if (auto found = at(f, g, below ? nearest.t - step : nearest.t + step, z, W, look))
+        take(std::move(*found));
+    }
+  }
+  const At nearest = best();
+  Prox made = named(nearest);
+  made.error_bound = error_of(nearest);
   return made;
 }
 
@@ -251,68 +310,6 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look) {
   return prox_of_two_function_max(f, g, z, W, look, Order::given);
-}
-
-namespace {
-
-/// The conjugate of the mean at v, and a point where its supremum is attained.
-struct Above {
-  double t = 0;
-  Value bound;
-  Vector x;
-  double difference = 0;  ///< g - f there
-};
-
-std::optional<Above> above(const Function& f, const Function& g, double t, const Vector& v) {
-  WorkLimit::count(WorkLimit::of_a_program);
-  const Function conjugate = mean_of(f, g, t).sum.conjugate();
-  const std::optional<Vector> x = conjugate.subgradient(v);
-  if (!x || x->size() != v.size() || !x->allFinite()) return std::nullopt;
-  const Above found{t, conjugate.evaluate(v), *x, g(*x) - f(*x)};
-  return std::isnan(found.difference) ? std::nullopt : std::optional(found);
-}
-
-}  // namespace
-
-std::optional<Value> conjugate_of_two_function_max(const Function& f, const Function& g, const Vector& v) {
-  constexpr double enough = 1e-13;
-  double least = infinity, most = -infinity, error = 0;
-  const auto take_point = [&](const Vector& x) {
-    const Value of_f = f.evaluate(x), of_g = g.evaluate(x);
-    const Value larger = of_f.value > of_g.value ? of_f : of_g;
-    const Value along = product(v, x);
-    const double below = along.value - larger.value - larger.error - along.error;
-    if (below > most) most = below;
-  };
-  const auto take = [&](const std::optional<Above>& found) {
-    if (!found) return;
-    if (const Value& bound = found->bound; bound.value + bound.error < least + error) {
-      least = bound.value;
-      error = bound.error;
-    }
-    take_point(found->x);
-  };
-  std::optional<Above> low = above(f, g, 0, v), high = above(f, g, 1, v);
-  take(low);
-  take(high);
-  if (!low || !high) return std::nullopt;
-  Bracket bracket{0, 1, low->difference, high->difference};
-  for (int step = 0; step < most_steps && !WorkLimit::passed(); ++step) {
-    const bool is_open = low->difference > 0 && high->difference < 0;
-    if (!is_open || !(least + error - most > enough * std::abs(least))) break;
-    if (!(high->t - low->t > shortest * std::min(high->t, 1 - low->t))) break;
-    const std::optional<Above> middle = above(f, g, bracket.next(), v);
-    if (!middle) break;
-    take(middle);
-    bracket.narrow(middle->t, middle->difference);
-    (middle->difference > 0 ? low : high) = middle;
-    // Where the maximiser jumps both ends are ones of the mean between, and so are the points between them.
-    const double part = low->difference / (low->difference - high->difference);
-    if (part > 0 && part < 1) take_point(low->x + part * (high->x - low->x));
-  }
-  if (!std::isfinite(least) || !std::isfinite(most)) return std::nullopt;
-  // A least weight that keeps a domain may put an upper bound below a lower one.
-  return Value{least, error + std::abs(least - most) + unit_roundoff * (std::abs(least) + std::abs(most))};
 }
 
 }  // namespace convex::inline operations

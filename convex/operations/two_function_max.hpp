@@ -15,8 +15,9 @@ namespace convex::inline operations {
 ///
 /// A function that is not finite everywhere keeps a weight of 1e-30 at the least, and with it its domain.
 ///
-/// The error bound is that of the sums' proxes and twice the distance between the proxes at the ends of the
-/// last bracket, between which the solution is, with what the rounding of g - f is worth in x: an estimate.
+/// The error bound follows from where the weight may be (`WeightRange`), which proxes on both sides of the
+/// root tell. g - f moves with what these proxes miss, too, by what the same prox found another way tells: an
+/// estimate.
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look = {});
 

@@ -13,6 +13,8 @@
 
 using convex::Decomposition;
 using convex::Function;
+using convex::Index;
+using convex::Matrix;
 using convex::Metric;
 using convex::Prox;
 using convex::Status;
@@ -142,5 +144,45 @@ TEST_CASE("a maximum is known though the conjugate of its mean with the least we
     const Decomposition split = decompose(f, Vector::Constant(1, 5), Metric::identity(1));
     CHECK(split.status == Status::solved);
     CHECK(split.x.x[0] == doctest::Approx(one.x).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("the bound of a maximum's prox counts what its proxes miss in badly scaled metrics") {
+  struct Case {
+    const char *f, *g;
+    Vector z;
+    Matrix W;
+    Vector x;  // by Newton's method in fifty digits, from an x and a mean of slopes there
+  };
+  const Case cases[] = {
+      {"scale(power(1.5), 0.8280550636124414)", "scale(norm1(), 1.2881972524173966)",
+       Vector{{-233650900.61091956, -1207921385.0561144, 2316397082217.622, -13402856.62637654}},
+       Matrix{
+           {1.9456296163588615e-06, 4.17435254611336e-08, 1.9179042386726884e-10, -4.629345305048714e-06},
+           {4.17435254611336e-08, 2.501524955153965e-08, 1.7023336984893343e-11, -1.3618315192635733e-07},
+           {1.9179042386726884e-10, 1.7023336984893343e-11, 5.884850170574471e-13, 7.165252226783392e-10},
+           {-4.629345305048714e-06, -1.3618315192635733e-07, 7.165252226783392e-10, 0.00021690861151910947}},
+       Vector{{2.031199488872334, 0.017733757488930392, 0.10829542485282401, -2.896082870039481}}},
+      {"scale(norm1(), 9.879598943726824)", "sum(log_barrier(), constant(3.232180794711173))",
+       Vector{{-278198597102.20996, -108041466562.14397, 195820828057.25415}},
+       Matrix{{0.20179383064500372, 0.08958261025893524, 0.3361102996209631},
+              {0.08958261025893524, 0.03978576405253052, 0.1492194066117213},
+              {0.3361102996209631, 0.1492194066117213, 0.5598347144908409}},
+       Vector{{0.04308373067404775, 8.217942002653364e-06, 1.7319529520284287}}},
+      {"huber(0.5)", "scale(exponential(), 0.02901265705826523)",
+       Vector{{1760.7016841188909, 8971273.368196877}},
+       Matrix{{1.0678195886027337, -0.00020943644079420297},
+              {-0.00020943644079420297, 2.262914562193353e-07}},
+       Vector{{0.43549434051397284, 5.160452885552077}}},
+  };
+  for (const Case& one : cases) {
+    CAPTURE(std::string(one.f) + ", " + one.g);
+    const Index n = one.z.size();
+    const Metric W = Metric::dense(one.W);
+    const auto found =
+        convex::prox_of_two_function_max(samples::function(one.f, n), samples::function(one.g, n), one.z, W);
+    REQUIRE(found);
+    CHECK(W.norm(found->x - one.x) <= found->error_bound);
+    CHECK(found->error_bound <= 1e-8 * W.norm(one.z));
   }
 }
