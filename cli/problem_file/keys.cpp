@@ -108,6 +108,14 @@ constexpr OtherWord not_here[] = {
     {"masses", "write them into the kinetic energy, kinetic = \"m/2*x'^2\", m below [system.parameters]"},
 };
 
+/// The key that another word is for, or "".
+std::string key_of_word(const std::string& word, const std::vector<std::string>& known) {
+  for (const OtherWord& other : other_words)
+    if (word == other.word && std::find(known.begin(), known.end(), other.key) != known.end())
+      return other.key;
+  return "";
+}
+
 std::string advice_on_key(const std::string& unknown, bool is_table, const std::string& where,
                           const std::vector<std::string>& known) {
   const bool is_of_system =
@@ -121,9 +129,8 @@ std::string advice_on_key(const std::string& unknown, bool is_table, const std::
     }
   for (const OtherWord& other : not_here)
     if (is_of_system && unknown == other.word) return other.key;
-  for (const OtherWord& other : other_words)
-    if (unknown == other.word && std::find(known.begin(), known.end(), other.key) != known.end())
-      return "did you mean \"" + std::string(other.key) + "\"?";
+  if (const std::string key = key_of_word(unknown, known); !key.empty())
+    return "did you mean \"" + key + "\"?";
   if (where == "state" && !is_table && convex::nearest_name(unknown, known).empty())
     return "a coordinate's value stands in position = { " + shown(unknown) + " = … } or velocity";
   return convex::suggestion(unknown, known);
@@ -151,6 +158,17 @@ void require_known_keys(const TomlValue& table, const std::string& where,
         entry.place));
   }
   mistakes.tell();
+}
+
+TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> known) {
+  const std::vector<std::string> names(known.begin(), known.end());
+  for (TomlEntry& entry : table.table) {
+    if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+    std::string meant = key_of_word(entry.key, names);
+    if (meant.empty()) meant = convex::nearest_name(entry.key, names);
+    if (!meant.empty() && table.find(meant) == nullptr) entry.key = meant;
+  }
+  return table;
 }
 
 const TomlValue& require_table(const TomlValue& value, const std::string& where) {

@@ -15,6 +15,10 @@ std::string shown(const std::string& text);
 void require_known_keys(const TomlValue& table, const std::string& where,
                         std::initializer_list<const char*> known);
 
+/// The table with the keys that an unknown one is a slip of, or another word for, in its place, where they
+/// are missing: what stands behind it can be read, too.
+TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> known);
+
 /// The value as a table; otherwise InvalidInput.
 const TomlValue& require_table(const TomlValue& value, const std::string& where);
 

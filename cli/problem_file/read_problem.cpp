@@ -66,10 +66,11 @@ Problem read_problem(const std::string& text, const std::string& directory) {
 Problem read_problem(const TomlValue& given, const std::string& directory) {
   const auto kept = std::make_shared<TomlValue>(given);
   write_long_integers_out(*kept, directory);
-  const TomlValue& document = *kept;
   Problem problem;
   convex::Mistakes mistakes;
-  mistakes.gather([&] { require_known_keys(document, "", known_keys); });
+  mistakes.gather([&] { require_known_keys(*kept, "", known_keys); });
+  if (!mistakes.none()) *kept = with_meant_keys(std::move(*kept), known_keys);
+  const TomlValue& document = *kept;
   const auto read = [&](const char* key, const auto& work) {
     if (const TomlValue* value = document.find(key)) mistakes.gather([&] { work(*value); });
   };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -40,21 +41,30 @@ std::vector<NamedText> named(const TomlValue* table, const std::string& where) {
   return entries;
 }
 
+constexpr std::initializer_list<const char*> system_keys{
+    "coordinates", "kinetic", "potential", "parameters", "definitions", "forces", "constraints", "looseness"};
+constexpr std::initializer_list<const char*> state_keys{"t", "position", "velocity", "in_contact",
+                                                        "solve_for"};
+constexpr std::initializer_list<const char*> looseness_keys{"between", "gap", "restitution"};
+
+/// The table as it is meant, when its keys are known or slips of known ones.
+TomlValue read_keys(const TomlValue& table, const std::string& where,
+                    std::initializer_list<const char*> known, convex::Mistakes& mistakes) {
+  const bool are_known = mistakes.gather([&] { require_known_keys(table, where, known); });
+  return are_known ? table : with_meant_keys(table, known);
+}
+
 /// Whether all names are where they are looked for, and so are T and the coordinates, whatever other key is
 /// unknown.
-bool has_known_keys(const TomlValue& table, const TomlValue* bodies, convex::Mistakes& mistakes) {
-  if (mistakes.gather([&] {
-        require_known_keys(table, "system",
-                           {"coordinates", "kinetic", "potential", "parameters", "definitions", "forces",
-                            "constraints", "looseness"});
-      }))
-    return true;
-  for (const TomlEntry& entry : table.table)
-    if (entry.value.kind == TomlValue::Kind::table && entry.key != "parameters" &&
-        entry.key != "definitions" && entry.key != "forces" && entry.key != "constraints" &&
-        entry.key != "looseness")
-      return false;
-  return bodies != nullptr || (table.find("coordinates") != nullptr && table.find("kinetic") != nullptr);
+bool is_complete(const TomlValue& table, const TomlValue* bodies) {
+  bool are_known = true;
+  for (const TomlEntry& entry : table.table) {
+    const bool is_known = std::find(system_keys.begin(), system_keys.end(), entry.key) != system_keys.end();
+    if (!is_known && entry.value.kind == TomlValue::Kind::table) return false;
+    are_known = are_known && is_known;
+  }
+  return are_known || bodies != nullptr ||
+         (table.find("coordinates") != nullptr && table.find("kinetic") != nullptr);
 }
 
 /// `is_whole`: what is missing stands under no key with a wrong name. Whether nothing was wrong.
@@ -91,9 +101,6 @@ bool read_lagrangian(mechanics::LagrangianText& system, const TomlValue& table, 
 }
 
 void read_state(mechanics::StateText& state, const TomlValue& table, convex::Mistakes& mistakes) {
-  mistakes.gather([&] {
-    require_known_keys(table, "state", {"t", "position", "velocity", "in_contact", "solve_for"});
-  });
   const TomlValue *t = table.find("t"), *position = table.find("position");
   if (t != nullptr) mistakes.gather([&] { state.t = expression(*t, "state.t"); });
   state.position_table = Text{"", position == nullptr ? table.place : position->place};
@@ -135,15 +142,14 @@ bool stands_before(const TomlValue& system, const std::string& first, const std:
 
 /// `[system.looseness]`: two one-sided constraints for each element, -gap/2 <= a - b <= gap/2, in the order
 /// of the file.
-void add_looseness(SystemProblem& problem, const TomlValue& system) {
+void add_looseness(SystemProblem& problem, const TomlValue& system, convex::Mistakes& mistakes) {
   const TomlValue* table = system.find("looseness");
   if (table == nullptr) return;
   auto& constraints = problem.system.constraints;
   auto at = stands_before(system, "looseness", "constraints") ? constraints.begin() : constraints.end();
   for (const TomlEntry& entry : require_table(*table, "system.looseness").table) {
     const std::string where = "system.looseness." + shown(entry.key);
-    const TomlValue& element = require_table(entry.value, where);
-    require_known_keys(element, where, {"between", "gap", "restitution"});
+    const TomlValue element = read_keys(require_table(entry.value, where), where, looseness_keys, mistakes);
     const TomlValue *between = element.find("between"), *gap = element.find("gap");
     if (between == nullptr || between->kind != TomlValue::Kind::array || between->array.size() != 2)
       throw InvalidInput(where + ".between: not two expressions; write between = [\"a\", \"i*b\"]",
@@ -175,24 +181,26 @@ void add_looseness(SystemProblem& problem, const TomlValue& system) {
 
 SystemProblem read_system(const TomlValue& document, const std::string& directory,
                           convex::Mistakes& mistakes) {
-  const TomlValue& system = *document.find("system");
+  const TomlValue& given = *document.find("system");
   const TomlValue *state = document.find("state"), *bodies = document.find("bodies");
   SystemProblem problem;
-  if (!mistakes.gather([&] { require_table(system, "system"); })) return problem;
-  const bool is_whole = has_known_keys(system, bodies, mistakes);
+  if (!mistakes.gather([&] { require_table(given, "system"); })) return problem;
+  const TomlValue system = read_keys(given, "system", system_keys, mistakes);
+  const bool is_whole = is_complete(system, bodies);
   bool is_read = read_lagrangian(problem.system, system, bodies, is_whole, mistakes);
   problem.system.table_file = [directory](const std::string& file) {
     return read_table_points(file.empty() || file[0] == '/' || directory.empty() ? file
                                                                                  : directory + "/" + file);
   };
-  if (is_whole) is_read = mistakes.gather([&] { add_looseness(problem, system); }) && is_read;
+  if (is_whole) is_read = mistakes.gather([&] { add_looseness(problem, system, mistakes); }) && is_read;
   if (state == nullptr && !is_read) return problem;  // it may be what stands in another table
   mistakes.gather([&] {
     if (state == nullptr)
       throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
                          system.place);
-    read_state(problem.state, require_table(*state, "state"), mistakes);
-    problem.declared = read_declared(*state);
+    const TomlValue meant = read_keys(require_table(*state, "state"), "state", state_keys, mistakes);
+    read_state(problem.state, meant, mistakes);
+    problem.declared = read_declared(meant);
   });
   if (!mistakes.none() && is_read) mechanics::gather_mistakes(problem.system, problem.state, mistakes);
   return problem;

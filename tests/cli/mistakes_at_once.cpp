@@ -75,6 +75,24 @@ TEST_CASE("mistakes of a file that do not hang on each other are told at once, i
       {"3:11: domain: ", "4:11: density: ", "5:17: force: ", "6:46: free.top.pressure: "});
 }
 
+TEST_CASE("a slip in a key hides nothing of what stands in the file beside it") {
+  const std::pair<int, const char*> floor{9, "floor = \"y > 0\""};
+  const std::string wrong_floor = "9:12: constraint floor: ";
+  check_told(point_on_floor({{2, "coordinate = [\"x\", \"y\"]"}, floor}),
+             {"2:1: unknown key \"coordinate\" in [system]; ", wrong_floor});
+  check_told(point_on_floor({{3, "T = \"m/2*(x'^2 + y'^2)\""}, floor}),
+             {"3:1: unknown key \"T\" in [system]; ", wrong_floor});
+  check_told(point_on_floor({{5, "[system.paramters]"}, floor}),
+             {"5:9: unknown key \"paramters\" in [system]; ", wrong_floor});
+  check_told(point_on_floor({{8, "[system.constraint]"}, floor}),
+             {"8:9: unknown key \"constraint\" in [system]; ", wrong_floor});
+  check_told(point_on_floor({floor, {10, "[stat]"}}), {wrong_floor, "10:2: unknown key \"stat\"; "});
+  check_told(point_on_floor({floor, {13, "[slve]\ntolerance = 1e-9"}}),
+             {wrong_floor, "13:2: unknown key \"slve\"; "});
+  check_told(point_on_floor({floor, {13, "[system.looseness]\nplay = { betwen = [\"x\", \"y\"], gap = 1 }"}}),
+             {wrong_floor, "14:10: unknown key \"betwen\" in [system.looseness.play]; "});
+}
+
 TEST_CASE("what follows from a mistake is not told as another one") {
   // Names and tables that stand below a key with a wrong name are missed by nothing.
   check_told(point_on_floor({{5, "[system.paramters]"}}), {"5:9: unknown key \"paramters\" in [system]; "});
