@@ -62,7 +62,8 @@ mechanics::AssemblyQuestion declared_question(const LagrangianSystem& system, co
 mechanics::StateText state_text(const LagrangianSystem& system, const mechanics::State& state,
                                 const mechanics::StateText& before) {
   mechanics::StateText text = before;
-  const convex::Place place = before.position_table ? before.position_table->begin : convex::Place{};
+  convex::Place place;
+  if (before.position_table) place = before.position_table->begin;
   text.position.clear();
   text.velocity.clear();
   for (std::size_t i = 0; i < system.coordinates().size(); ++i) {

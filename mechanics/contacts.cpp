@@ -11,6 +11,12 @@ namespace {
   throw convex::InvalidInput("constraint " + constraint.name + ": " + what, constraint.place);
 }
 
+/// "two-sided, but f", or of what is looked at in its place.
+std::string but(const Constraint& constraint, const std::string& rate) {
+  if (constraint.read_as.empty()) return "two-sided, but " + rate + " = ";
+  return "two-sided, and read as " + constraint.read_as + ", of which it is a power, but " + rate + " = ";
+}
+
 /// Velocities that are left out of a file are 0, which may be what is wrong.
 const char* at_rest(const State& state) { return state.v.isZero(0) ? " with all velocities 0" : ""; }
 
@@ -34,11 +40,11 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
                  df_zero = tolerance[a] * found.rates.df_scale[a];
     if (constraint.two_sided) {
       if (!(std::abs(f) <= f_zero))
-        refuse(constraint, "two-sided, but f = " + number_text(f) +
+        refuse(constraint, but(constraint, "f") + number_text(f) +
                                " at the state; move the position so that it holds, or let "
                                "`moreau assemble` find the nearest one");
       if (!(std::abs(df) <= df_zero))
-        refuse(constraint, "two-sided, but df/dt = " + number_text(df) + " at the state" + at_rest(state) +
+        refuse(constraint, but(constraint, "df/dt") + number_text(df) + " at the state" + at_rest(state) +
                                "; choose velocities that keep it, or let "
                                "`moreau assemble` find the nearest ones");
       found.present.push_back(a);

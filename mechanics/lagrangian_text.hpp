@@ -9,12 +9,24 @@
 
 namespace mechanics {
 
+/// Where a text begins in its file, and where it goes on behind each escape: the character at `offset` of the
+/// text, and all behind it up to the next such place.
+struct TextOrigin : convex::Place {
+  struct Jump {
+    std::size_t offset = 0;
+    convex::Place place;
+  };
+  std::vector<Jump> jumps = {};
+
+  TextOrigin(convex::Place begin = {}) : convex::Place(begin) {}
+};
+
 /// A piece of text and where it begins, so that an error can point into it.
 struct Text {
   std::string text;
-  convex::Place begin;
+  TextOrigin begin;
 
-  /// The place of the character at `offset` (lines are counted; an escape in the source shifts the column).
+  /// The place of the character at `offset`; lines are counted.
   convex::Place at(std::size_t offset) const;
 };
 

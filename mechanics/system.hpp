@@ -15,6 +15,7 @@ struct Constraint {
   std::string name;
   bool two_sided = false;
   std::optional<convex::Place> place;
+  std::string read_as = {};  ///< "y = 0" where the relation is a power of it, and f and df/dt are those of y
 };
 
 /// Lagrange's equations without reactions, A q'' = z, at a state (Moreau 1966, (8)).

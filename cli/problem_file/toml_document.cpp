@@ -34,7 +34,7 @@ class Converter {
     } else if (const auto* string = node.as_string()) {
       made.kind = TomlValue::Kind::string;
       made.text = string->get();
-      made.content = content(made.place);
+      made.content = content(made.place, made.text);
     } else if (const auto* integer = node.as_integer()) {
       made.kind = TomlValue::Kind::integer;
       made.number = static_cast<double>(integer->get());
@@ -75,13 +75,52 @@ class Converter {
     return i;
   }
 
-  convex::Place content(convex::Place at) const {
+  mechanics::TextOrigin content(convex::Place at, const std::string& decoded) const {
     const std::size_t i = offset(at);
     const std::string quotes = text_.substr(i, 3);
-    if (quotes != "\"\"\"" && quotes != "'''") return {at.line, at.column + 1};
+    if (quotes != "\"\"\"" && quotes != "'''") return origin(i + 1, {at.line, at.column + 1}, decoded);
     const std::size_t first = i + 3;
-    const bool line_break = text_.compare(first, 1, "\n") == 0 || text_.compare(first, 2, "\r\n") == 0;
-    return line_break ? convex::Place{at.line + 1, 1} : convex::Place{at.line, at.column + 3};
+    const std::size_t line_break = text_.compare(first, 1, "\n") == 0     ? 1
+                                   : text_.compare(first, 2, "\r\n") == 0 ? 2
+                                                                          : 0;
+    return line_break > 0 ? origin(first + line_break, {at.line + 1, 1}, decoded)
+                          : origin(first, {at.line, at.column + 3}, decoded);
+  }
+
+  /// Of the characters of a string, that begins at `i`, at `place`: it jumps behind each escape.
+  mechanics::TextOrigin origin(std::size_t i, convex::Place place, const std::string& decoded) const {
+    mechanics::TextOrigin made(place);
+    const bool is_basic = text_[i - 1] != '\'' && (i < 2 || text_[i - 2] != '\'');
+    if (!is_basic) return made;
+    const auto step = [&] {
+      if (text_[i] == '\n') {
+        ++place.line;
+        place.column = 1;
+      } else if ((static_cast<unsigned char>(text_[i]) & 0xC0U) != 0x80U) {
+        ++place.column;
+      }
+      ++i;
+    };
+    for (std::size_t k = 0; k < decoded.size() && i < text_.size();) {
+      if (text_[i] != '\\' || i + 1 >= text_.size()) {
+        if (text_[i] != decoded[k] && text_[i] != '\r') break;  // not as it is understood here
+        k += text_[i] == decoded[k] ? 1 : 0;
+        step();
+        continue;
+      }
+      const char escaped = text_[i + 1];
+      const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
+      if (is_blank(escaped)) {
+        step();
+        while (i < text_.size() && is_blank(text_[i])) step();
+      } else {
+        const int length = escaped == 'u' ? 6 : escaped == 'U' ? 10 : 2;
+        for (int c = 0; c < length && i < text_.size(); ++c) step();
+        for (++k; k < decoded.size() && (static_cast<unsigned char>(decoded[k]) & 0xC0U) == 0x80U;) ++k;
+      }
+      made.jumps.push_back({k, place});
+    }
+    return made;
   }
 
   std::string written(const toml::source_region& region) const {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "convex/invalid_input.hpp"
+#include "mechanics/lagrangian_text.hpp"
 
 namespace cli::inline problem_files {
 
@@ -14,8 +14,8 @@ struct TomlEntry;
 struct TomlValue {
   enum class Kind { boolean, integer, floating, string, array, table, other };
   Kind kind = Kind::table;
-  convex::Place place;    ///< of the value
-  convex::Place content;  ///< of a string's first character, behind the quotation mark
+  convex::Place place;            ///< of the value
+  mechanics::TextOrigin content;  ///< of a string's first character, behind the quotation mark
   bool boolean = false;
   double number = 0;  ///< of an integer or a float
   std::string text;   ///< of a string; the digits as written of an integer or a float

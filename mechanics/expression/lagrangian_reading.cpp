@@ -177,7 +177,10 @@ class Reading {
         const NodeId f = expansion_.node(entries[e].value, tuple);
         refuse_velocities(f, entries[e].value, "constraint " + model_.constraints.back().name);
         const NodeId base = two_sided[e] ? base_of_power(model_.tape, f) : f;
-        if (base != f) model_.bases.push_back(static_cast<Index>(model_.f.size()));
+        if (base != f) {
+          model_.bases.push_back(static_cast<Index>(model_.f.size()));
+          model_.constraints.back().read_as = written(model_.tape, base, model_.coordinates) + " = 0";
+        }
         model_.f.push_back(base);
       }
     }

@@ -93,6 +93,19 @@ TEST_CASE("a slip in a key hides nothing of what stands in the file beside it") 
              {wrong_floor, "14:10: unknown key \"betwen\" in [system.looseness.play]; "});
 }
 
+TEST_CASE("a place behind an escape or a continued line is that in the file") {
+  check_told(point_on_floor({{4, R"x(potential = "m*g\u002ay\t+ sinn(y)")x"}}), {"4:29: potential: "});
+  check_told(point_on_floor({{4, "potential = \"\"\"m*g*y \\\n   + \\\n\n  sinn(y)\"\"\""}}),
+             {"7:3: potential: "});
+  check_told(point_on_floor({{4, "potential = \"\"\"\n\\\n m*g*y +\n sinn(y)\"\"\""}}), {"7:2: potential: "});
+  check_told(point_on_floor({{4, "potential = 'm*g*y + sinn(y)'"}}), {"4:22: potential: "});
+}
+
+TEST_CASE("what is looked at of a constraint that is a power is told with what is wrong of it") {
+  check_told(point_on_floor({{9, "floor = \"y^2 = 0\""}, {12, "velocity = { x = 1.0, y = 2.0 }"}}),
+             {"9:1: constraint floor: two-sided, and read as y = 0, of which it is a power, but df/dt = 2 "});
+}
+
 TEST_CASE("what follows from a mistake is not told as another one") {
   // Names and tables that stand below a key with a wrong name are missed by nothing.
   check_told(point_on_floor({{5, "[system.paramters]"}}), {"5:9: unknown key \"paramters\" in [system]; "});
