@@ -19,6 +19,7 @@ struct TextOrigin : convex::Place {
   std::vector<Jump> jumps = {};
 
   TextOrigin(convex::Place begin = {}) : convex::Place(begin) {}
+  TextOrigin(int at_line, int at_column) : convex::Place{at_line, at_column} {}
 };
 
 /// A piece of text and where it begins, so that an error can point into it.

@@ -35,7 +35,7 @@ std::vector<mechanics::Text> components(const std::string& text) {
     if (text[k] == '(' || text[k] == '[') ++depth;
     if (text[k] == ')' || (text[k] == ']' && k < last)) --depth;
     if (k < last && (text[k] != ',' || depth > 0)) continue;
-    parts.push_back({text.substr(begin, k - begin), convex::Place{1, static_cast<int>(begin) + 1}});
+    parts.push_back({text.substr(begin, k - begin), {1, static_cast<int>(begin) + 1}});
     begin = k + 1;
   }
   return parts;

@@ -94,7 +94,7 @@ TEST_CASE("a slip in a key hides nothing of what stands in the file beside it") 
 }
 
 TEST_CASE("a place behind an escape or a continued line is that in the file") {
-  check_told(point_on_floor({{4, R"x(potential = "m*g\u002ay\t+ sinn(y)")x"}}), {"4:29: potential: "});
+  check_told(point_on_floor({{4, R"x(potential = "m*g\u002ay\t+ sinn(y)")x"}}), {"4:28: potential: "});
   check_told(point_on_floor({{4, "potential = \"\"\"m*g*y \\\n   + \\\n\n  sinn(y)\"\"\""}}),
              {"7:3: potential: "});
   check_told(point_on_floor({{4, "potential = \"\"\"\n\\\n m*g*y +\n sinn(y)\"\"\""}}), {"7:2: potential: "});
