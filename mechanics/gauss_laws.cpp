@@ -202,11 +202,9 @@ void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report
     return;
   }
   const double bound = apart_by_rounding(j, *dual.found);
-  if (!(bound <= widest_bound * j.size)) {
+  if (dual.found->thinnest < 1 && !(bound <= widest_bound * j.size)) {
     report.no_evidence.emplace_back(
-        "z = x + y: the contacts depend on each other so nearly, or their cone is so thin, that rounding "
-        "leaves "
-        "the dual's y open");
+        "z = x + y: the cone of the contacts is so thin that rounding leaves the dual's y open");
     return;
   }
   report.checks.push_back(

@@ -54,16 +54,14 @@ TomlValue read_keys(const TomlValue& table, const std::string& where,
   return are_known ? table : with_meant_keys(table, known);
 }
 
-/// Whether all names are where they are looked for, and so are T and the coordinates, whatever other key is
+/// Whether all names are where they are looked for, and so are T and the coordinates, whatever other key was
 /// unknown.
-bool is_complete(const TomlValue& table, const TomlValue* bodies) {
-  bool are_known = true;
+bool is_complete(const TomlValue& table, const TomlValue* bodies, bool were_known) {
   for (const TomlEntry& entry : table.table) {
     const bool is_known = std::find(system_keys.begin(), system_keys.end(), entry.key) != system_keys.end();
     if (!is_known && entry.value.kind == TomlValue::Kind::table) return false;
-    are_known = are_known && is_known;
   }
-  return are_known || bodies != nullptr ||
+  return were_known || bodies != nullptr ||
          (table.find("coordinates") != nullptr && table.find("kinetic") != nullptr);
 }
 
@@ -185,8 +183,9 @@ SystemProblem read_system(const TomlValue& document, const std::string& director
   const TomlValue *state = document.find("state"), *bodies = document.find("bodies");
   SystemProblem problem;
   if (!mistakes.gather([&] { require_table(given, "system"); })) return problem;
-  const TomlValue system = read_keys(given, "system", system_keys, mistakes);
-  const bool is_whole = is_complete(system, bodies);
+  const bool were_known = mistakes.gather([&] { require_known_keys(given, "system", system_keys); });
+  const TomlValue system = were_known ? given : with_meant_keys(given, system_keys);
+  const bool is_whole = is_complete(system, bodies, were_known);
   bool is_read = read_lagrangian(problem.system, system, bodies, is_whole, mistakes);
   problem.system.table_file = [directory](const std::string& file) {
     return read_table_points(file.empty() || file[0] == '/' || directory.empty() ? file

@@ -38,9 +38,6 @@ constexpr Index most_axes = 64;
 /// So much farther out than it began.
 constexpr double farther = 1e12;
 
-/// The weight, at the size of 1, of the prox that moves a point into a domain and next to nowhere in it.
-constexpr double stiff = 1e12;
-
 /// The scalar products and values of a lower bound are right to so many roundings.
 constexpr double roundings = 8;
 
@@ -306,26 +303,6 @@ std::optional<Vector> maximiser(const Function& f, const Vector& v) {
 bool is_of_rounding(const Value& value) {
   constexpr double few = 64;
   return std::isfinite(value.value) && value.error <= few * unit_roundoff * std::abs(value.value);
-}
-
-Value between_points(const Value& by_program, const Value& above, const std::optional<Vector>& x,
-                     const Function& f, const Vector& v) {
-  if (!std::isfinite(by_program.value) || !std::isfinite(above.value)) return by_program;
-  const OneAtATime question(OneAtATime::Kind::lower_bound);
-  if (!question.first() || !x || x->size() != v.size() || !x->allFinite()) return by_program;
-  Vector inside = *x;
-  Value at = f.evaluate(inside);
-  // A slope that misses the domain by what the program left is as good there, to the square of the miss.
-  if (!std::isfinite(at.value) || !std::isfinite(at.error)) {
-    inside = prox_of(f, inside, stiff / std::max(inside.squaredNorm(), unit_roundoff)).x;
-    if (inside.size() != v.size() || !inside.allFinite()) return by_program;
-    at = f.evaluate(inside);
-  }
-  const Value along = product(v, inside);
-  const double below = along.value - at.value, error = above.error + at.error + along.error;
-  const double apart = std::abs(above.value - below);
-  // What the program says of its error is an estimate: bounds that are not much farther apart are better.
-  return apart + error < 2 * by_program.error ? Value{above.value, apart + error} : by_program;
 }
 
 Value settled_value(const Value& by_program, const std::optional<Vector>& x, const Function& f,

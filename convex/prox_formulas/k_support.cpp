@@ -55,27 +55,29 @@ Index entries_not_zero(const Vector& s) { return (s.array() > 0).count(); }
 
 double squares_of_largest(const Vector& s, Index k) { return s.head(std::min(k, s.size())).squaredNorm(); }
 
-/// alpha with Σ clamp(alpha s_i - lambda, 0, 1) = k: with alpha = lambda/t and mu = 1/lambda it is the level
-/// above, since clamp(lambda s/t - lambda, 0, 1) = clamp((s/t - 1)/mu, 0, 1).
-double alpha_of_k(const Vector& s, double lambda, Index k) { return lambda / level_of_k(s, 1 / lambda, k); }
-
+/// theta_i = clamp(alpha s_i - lambda, 0, 1) with Σ theta = k by t = lambda/alpha, the level above for mu =
+/// 1/lambda: alpha s - lambda = lambda (s/t - 1) would cancel where lambda is large, as for z near the ball.
 struct Levels {
-  double lambda = 0, alpha = 0;
+  double lambda = 0, t = 0;
   bool all_full = false;  ///< at most k entries are not 0: theta = 1 on them
+
+  double alpha() const { return lambda / t; }
+  bool is_full(double size) const { return all_full ? size > 0 : size >= t * (1 + 1 / lambda); }
+  bool is_between(double size) const { return !all_full && size > t && !is_full(size); }
 };
 
-/// The share lambda |x| of the prox, increasing in lambda from 0 to the dual norm of z.
+/// The share lambda |x| of the prox, increasing in lambda from 0 to the dual norm of z: where theta is
+/// between 0 and 1, theta (s/(theta + lambda))² = theta/alpha², and there the theta add up to k less those
+/// full.
 double share(const Vector& s, double lambda, Index k, Levels& levels) {
   levels.lambda = lambda;
   levels.all_full = entries_not_zero(s) <= k;
   if (levels.all_full) return lambda / (1 + lambda) * s.stableNorm();
-  levels.alpha = alpha_of_k(s, lambda, k);
-  double squares = 0;
-  for (const double size : s) {
-    const double theta = std::clamp(levels.alpha * size - lambda, 0.0, 1.0);
-    if (theta > 0) squares += theta * std::pow(size / (theta + lambda), 2);
-  }
-  return lambda * std::sqrt(squares);
+  levels.t = level_of_k(s, 1 / lambda, k);
+  double squares = 0, rest = static_cast<double>(k);
+  for (const double size : s)
+    if (levels.is_full(size)) squares += std::pow(lambda / (1 + lambda) * size, 2), --rest;
+  return std::sqrt(squares + std::max(rest, 0.0) * levels.t * levels.t);
 }
 
 /// The root of an increasing function on (0, inf) that is 0 at 0 and above `value` far out; by bisection of
@@ -125,11 +127,6 @@ Levels levels_of(const Vector& s, double weight, Index k) {
   return levels;
 }
 
-double theta_of(const Levels& levels, double size) {
-  if (levels.all_full) return size > 0 ? 1 : 0;
-  return std::clamp(levels.alpha * size - levels.lambda, 0.0, 1.0);
-}
-
 }  // namespace
 
 double norm_of_largest(const Vector& x, Index k) {
@@ -162,8 +159,10 @@ Vector prox_k_support(const Vector& z, double weight, Index k) {
   const Levels levels = levels_of(sizes_in_order(unit), weight / size, k);
   Vector x(z.size());
   for (Index i = 0; i < z.size(); ++i) {
-    const double theta = theta_of(levels, std::abs(unit[i]));
-    x[i] = theta > 0 ? z[i] * (theta / (theta + levels.lambda)) : 0;
+    const double entry = std::abs(unit[i]);
+    x[i] = 0;
+    if (levels.is_full(entry)) x[i] = z[i] / (1 + levels.lambda);
+    if (levels.is_between(entry)) x[i] = std::copysign(size * (entry - levels.t), z[i]);
   }
   return x;
 }
@@ -173,18 +172,17 @@ Matrix prox_k_support_jacobian(const Vector& z, double weight, Index k) {
   if (weight == 0) return Matrix::Identity(n, n);
   if (norm_of_largest(z, k) <= weight) return Matrix::Zero(n, n);
   const Levels levels = levels_of(sizes_in_order(z), weight, k);
-  const double lambda = levels.lambda, alpha = levels.alpha;
+  const double lambda = levels.lambda, alpha = levels.all_full ? 0 : levels.alpha();
   // Full entries: x = z/(1 + lambda); between: x = z - (lambda/alpha) sign z. F_1 = Σ_between (alpha |z| -
   // lambda) + full - k = 0 and F_2 = lambda² (Σ_full z²/(1 + lambda)² + (k - full)/alpha²) - weight² = 0 give
   // the moves of alpha and lambda.
   Vector sign = Vector::Zero(n), full_part = Vector::Zero(n);
   double full = 0, between = 0, sum_between = 0;
   for (Index i = 0; i < n; ++i) {
-    const double theta = theta_of(levels, std::abs(z[i]));
-    if (theta >= 1) {
+    if (levels.is_full(std::abs(z[i]))) {
       ++full;
       full_part[i] = z[i];
-    } else if (theta > 0) {
+    } else if (levels.is_between(std::abs(z[i]))) {
       ++between;
       sign[i] = z[i] > 0 ? 1 : -1;
       sum_between += std::abs(z[i]);

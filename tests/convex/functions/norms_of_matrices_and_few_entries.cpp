@@ -65,6 +65,22 @@ TEST_CASE("the k-support norm is the support function of the ball of the k large
   }
 }
 
+TEST_CASE("the prox of the k-support norm is right to roundings of z just outside of the ball of its dual") {
+  for (const double out : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+    // With k = 1 it is the 1-norm, whose prox takes 1 away from every entry, as far as there is 1.
+    const Vector z{{0, 1 + out, -1, 0.5}};
+    const Vector soft{{0, z[1] - 1, 0, 0}};
+    CHECK((prox_at(k_support(1), z) - soft).norm() <= 1e-15);
+    // With k = n it is the norm itself.
+    const Vector w = (1 + out) * Vector{{0.6, 0.8}};
+    CHECK((prox_at(k_support(2), w) - (w.norm() - 1) / w.norm() * w).norm() <= 1e-15);
+    // With k = 2 the ball is |z_1|² + |z_2|² <= 1 of the largest two: out along its normal.
+    const Vector edge{{0.8, 0.6, 0.1}};
+    CHECK((prox_at(k_support(2), edge + out * Vector{{0.8, 0.6, 0}}) - out * Vector{{0.8, 0.6, 0}}).norm() <=
+          1e-15);
+  }
+}
+
 TEST_CASE("a Schatten norm is the nuclear, the Frobenius and the largest singular value, and for 4 a trace") {
   for (const Vector& x : random_points(6, 20)) {
     const Matrix X = x.reshaped(2, 3);
