@@ -37,7 +37,7 @@ class Envelope : public Operation {
   }
   Value evaluate(const Vector& x) const override { return smoothed(f_, kernel(x.size()), x).value; }
   std::optional<Vector> subgradient(const Vector& x) const override {
-    return smoothed(f_, kernel(x.size()), x).v;
+    return slope_of_smoothing(f_, kernel(x.size()), x);
   }
   Function conjugate() const override {
     const Function g = f_.conjugate();

@@ -41,7 +41,8 @@ class InfConvolution : public Operation {
   }
   Call call() const override { return {"inf_convolution", {argument(f_.call()), argument(g_.call())}}; }
   Value evaluate(const Vector& x) const override {
-    if (const auto split = smoothing(x.size())) return value_of_smoothing(*split, x);
+    if (const auto split = smoothing(x.size()))
+      if (const auto value = value_of_smoothing(*split, x)) return *value;
     if (const auto sum = value_by_entries(*this, x)) return *sum;
     ByProgram found = by_program(x);
     // Of cones that only near each other far out, a program takes points out there, where it is right to a
@@ -65,7 +66,8 @@ class InfConvolution : public Operation {
     return settled_value(found.value, found.slope, conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
-    if (const auto split = smoothing(x.size())) return smoothed(split->f, split->q, x).v;
+    if (const auto split = smoothing(x.size()))
+      if (auto slope = slope_of_smoothing(split->f, split->q, x)) return slope;
     if (auto slopes = subgradient_by_entries(*this, x)) return slopes;
     if (auto slope = maximiser(conjugate(), x)) return slope;
     return Operation::subgradient(x);
@@ -149,12 +151,13 @@ class InfConvolution : public Operation {
     return found.size() == x.size() && found.allFinite() ? found : x;
   }
   /// f(w) + g(x - w) by g's own formula: of a g moved far the terms of q are large, and cancel. It is above
-  /// the minimum by no more than the square of what w is off by.
-  static Value value_of_smoothing(const Smoothing& of, const Vector& x) {
+  /// the minimum by no more than the square of what w is off by. None where the prox of f gave up.
+  static std::optional<Value> value_of_smoothing(const Smoothing& of, const Vector& x) {
     const Smoothed split = smoothed(of.f, of.q, x);
+    if (split.w.size() != x.size()) return std::nullopt;
     const double size = length_of(x) + length_of(split.w);
     return sum_of(sum_of(of.f.evaluate(split.w), value_near(of.g, difference(x, split.w), size)),
-                  {0, std::max(split.above, split.off * split.off)});
+                  Value{0, std::max(split.above, split.off * split.off)});
   }
 
   Function f_, g_;

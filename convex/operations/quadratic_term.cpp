@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/linear_quadratic/stationarity.hpp"
@@ -95,8 +96,9 @@ Value half_square(const Kernel& q, const Vector& b) {
 
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   const Prox part = f.prox(q.c.isZero(0) ? x : Vector(x + q.Q.solve(q.c)), q.Q, Look{});
-  if (part.x.size() != x.size())
+  if (part.x.size() != x.size() && part.status == Status::infeasible)
     throw InvalidInput(f.call().name + ": no point has it finite; give a proper function");
+  if (part.x.size() != x.size()) return {Vector(0), Vector(0), {infinity, infinity}};
   const Vector b = x - part.x;
   const Value square = half_square(q, b);
   const double linear = q.c.dot(b);
@@ -115,6 +117,11 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   constexpr double roundings_of_the_point = 4;
   const double of_point = roundings_of_the_point * unit_roundoff * (q.Q.norm(x) + q.Q.dual_norm(q.c));
   return {part.x, slope, sum_of(f.evaluate(part.x), rest), off + of_point, above};
+}
+
+std::optional<Vector> slope_of_smoothing(const Function& f, const Kernel& q, const Vector& x) {
+  Vector slope = smoothed(f, q, x).v;
+  return slope.size() == x.size() ? std::optional(std::move(slope)) : std::nullopt;
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look) {

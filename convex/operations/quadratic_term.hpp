@@ -40,7 +40,7 @@ struct Kernel {
 std::optional<Kernel> kernel_of(const QuadraticTerm& q);
 
 /// The w that attains (f □ q)(x) = min over w of f(w) + q(x - w), and the subgradient there, which is
-/// Q(x - w) + c.
+/// Q(x - w) + c; empty, with a value of which nothing is known, where the prox of f gave up.
 struct Smoothed {
   Vector w;
   Vector v;
@@ -49,6 +49,8 @@ struct Smoothed {
   double above = 0;  ///< the value at w is above the minimum by no more, in x as it is
 };
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
+/// That subgradient, if it is known.
+std::optional<Vector> slope_of_smoothing(const Function& f, const Kernel& q, const Vector& x);
 
 /// prox^W z of f □ q. With z = a + b + W⁻¹v, v in ∂f(a), v = Qb + c: a is the prox of f at z + Q⁻¹c in the
 /// parallel sum of W and Q, and b = (W + Q)⁻¹(W(z - a) - c). What rounding leaves of r = W(x - z) + v and of

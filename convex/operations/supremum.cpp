@@ -204,13 +204,15 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
     if (bound + 4 * rounding < highest) break;  // the prox did not get there
     highest = std::max(highest, bound - rounding);
     const double moved = (at.x - x).norm(), increase = bound - last;
+    // Off an end of the domain the value falls as steeply as v·x may, and x is there but for its bound.
+    const double off_domain = f.facts().finite ? 0 : v.norm() * at.error_bound / std::sqrt(t);
     const double error = rounding + t * moved * at.x.norm() + std::abs(increase) + left_by(at, f, v, t);
     const double enough = settled * std::max(std::abs(bound), small) + rounding;
     // A step that cannot move x as far as x is long shows nothing.
     const bool free = v.norm() == 0 || t * at.x.norm() <= v.norm();
     const bool shrinking = std::abs(increase) <= std::max(0.5 * std::abs(before), enough);
-    if (free && shrinking && error < best.error) {
-      best = {bound, error};
+    if (free && shrinking && error + off_domain < best.error) {
+      best = {bound, error + off_domain};
       x_of_best = at.x;
     }
     quiet = free && error <= 2 * enough ? quiet + 1 : 0;

@@ -7,6 +7,7 @@
 #include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/solution.hpp"
 #include "convex/proved_prox/entry_formulas.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
@@ -107,10 +108,12 @@ Value held_between(const Function& f, const Function& g, const Metric& W, const 
   const double low = nearest_double(proved->low),
                high = proved->high ? nearest_double(*proved->high) : INFINITY;
   const double rounding = unit_roundoff * (std::abs(low) + std::abs(found.value));
-  if (high - low + rounding < found.error) return {low, high - low + rounding};
-  if (low - found.value <= found.error + rounding && found.value - high <= found.error + rounding)
-    return found;
-  return {low, high - low + rounding};
+  const bool is_inside = low - found.value <= rounding && found.value - high <= rounding;
+  const double within = is_inside ? std::max(high - found.value, found.value - low) : infinity;
+  if (within + rounding < found.error) return {found.value, within + rounding};
+  const bool fits =
+      low - found.value <= found.error + rounding && found.value - high <= found.error + rounding;
+  return fits && !(high - low + rounding < found.error) ? found : Value{low, high - low + rounding};
 }
 
 }  // namespace
