@@ -3,6 +3,7 @@
 
 #include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
+#include "convex/invalid_input.hpp"
 #include "convex/operations/two_function_max.hpp"
 #include "convex/operations/weight_bracket.hpp"
 #include "convex/operations/weighted_mean.hpp"
@@ -18,13 +19,18 @@ struct Above {
   double difference = 0;  ///< g - f there
 };
 
+/// None where it is not known: beside the least weight a program may see no domain.
 std::optional<Above> above(const Function& f, const Function& g, double t, const Vector& v) {
   WorkLimit::count(WorkLimit::of_a_program);
-  const Function conjugate = weighted_mean(f, g, t).sum.conjugate();
-  const std::optional<Vector> x = conjugate.subgradient(v);
-  if (!x || x->size() != v.size() || !x->allFinite()) return std::nullopt;
-  const Above found{t, conjugate.evaluate(v), *x, g(*x) - f(*x)};
-  return std::isnan(found.difference) ? std::nullopt : std::optional(found);
+  try {
+    const Function conjugate = weighted_mean(f, g, t).sum.conjugate();
+    const std::optional<Vector> x = conjugate.subgradient(v);
+    if (!x || x->size() != v.size() || !x->allFinite()) return std::nullopt;
+    const Above found{t, conjugate.evaluate(v), *x, g(*x) - f(*x)};
+    return std::isnan(found.difference) ? std::nullopt : std::optional(found);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
