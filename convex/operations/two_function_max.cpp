@@ -254,8 +254,11 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
     if (1 - low->t < nearly_nothing && order == Order::given)
       return prox_of_two_function_max(g, f, z, W, look, Order::reversed);
     std::optional<At> middle;
-    for (double t = bracket.next(); !middle && t > low->t && t < high->t && !WorkLimit::passed();) {
+    // What is beside t is t itself in the end, for rounding keeps it below the bracket's.
+    double before = low->t;
+    for (double t = bracket.next(); !middle && t > before && t < high->t && !WorkLimit::passed();) {
       middle = at(f, g, t, z, W, look);
+      before = t;
       t = bracket.beside(t);
     }
     if (!middle && WorkLimit::passed()) break;

@@ -108,6 +108,16 @@ TEST_CASE("the programs that the dual of a maximum asks count as work") {
   CHECK(convex::WorkLimit::passed());
 }
 
+TEST_CASE("the search for a weight ends where no mean between two weights has a prox") {
+  const Function f = samples::function("inf_convolution(log_sum_exp(), norm2())", 2),
+                 g = samples::function("sum(inf_convolution(huber(0.5), norm2(3)), norm_inf())", 2);
+  const Vector z = Vector::Zero(2);
+  const convex::WorkLimit question(0.1);
+  const auto found = convex::prox_of_two_function_max(f, g, z, Metric::identity(2));
+  CHECK_FALSE(convex::WorkLimit::passed());
+  CHECK((!found || found->error_bound <= 1e-9));
+}
+
 TEST_CASE("where one of two functions is the maximum, its own conjugate tells that of the maximum") {
   // The other's epigraph, 1e8 far out, hides 6e-7 of the least entry.
   const Function f = samples::function("pointwise_max(squared_hinge(), inverse_power(0.5))", 2);
