@@ -78,20 +78,22 @@ class Converter {
   mechanics::TextOrigin content(convex::Place at, const std::string& decoded) const {
     const std::size_t i = offset(at);
     const std::string quotes = text_.substr(i, 3);
-    if (quotes != "\"\"\"" && quotes != "'''") return origin(i + 1, {at.line, at.column + 1}, decoded);
+    const bool is_basic = quotes[0] == '"', is_long = quotes == "\"\"\"" || quotes == "'''";
+    const auto origin = [&](std::size_t begin, convex::Place place) {
+      return is_basic ? behind_escapes(begin, place, decoded) : mechanics::TextOrigin(place);
+    };
+    if (!is_long) return origin(i + 1, {at.line, at.column + 1});
     const std::size_t first = i + 3;
     const std::size_t line_break = text_.compare(first, 1, "\n") == 0     ? 1
                                    : text_.compare(first, 2, "\r\n") == 0 ? 2
                                                                           : 0;
-    return line_break > 0 ? origin(first + line_break, {at.line + 1, 1}, decoded)
-                          : origin(first, {at.line, at.column + 3}, decoded);
+    return line_break > 0 ? origin(first + line_break, {at.line + 1, 1})
+                          : origin(first, {at.line, at.column + 3});
   }
 
-  /// Of the characters of a string, that begins at `i`, at `place`: it jumps behind each escape.
-  mechanics::TextOrigin origin(std::size_t i, convex::Place place, const std::string& decoded) const {
+  /// Of the characters of a basic string, that begins at `i`, at `place`: it jumps behind each escape.
+  mechanics::TextOrigin behind_escapes(std::size_t i, convex::Place place, const std::string& decoded) const {
     mechanics::TextOrigin made(place);
-    const bool is_basic = text_[i - 1] != '\'' && (i < 2 || text_[i - 2] != '\'');
-    if (!is_basic) return made;
     const auto step = [&] {
       if (text_[i] == '\n') {
         ++place.line;

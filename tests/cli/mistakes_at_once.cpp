@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/problem_file/toml_document.hpp"
 #include "tests/cli/program.hpp"
 
 using Json = nlohmann::ordered_json;
@@ -99,6 +100,17 @@ TEST_CASE("a place behind an escape or a continued line is that in the file") {
              {"7:3: potential: "});
   check_told(point_on_floor({{4, "potential = \"\"\"\n\\\n m*g*y +\n sinn(y)\"\"\""}}), {"7:2: potential: "});
   check_told(point_on_floor({{4, "potential = 'm*g*y + sinn(y)'"}}), {"4:22: potential: "});
+}
+
+TEST_CASE("a backslash in a literal string is no escape, whatever the line breaks of the file are") {
+  for (const char* text :
+       {"a = '\\t+\\n'", "a = '''\\t+\\n'''", "a = '''\n\\t+\\n'''", "a = '''\r\n\\t+\\n'''"}) {
+    CAPTURE(text);
+    const cli::TomlValue table = cli::parse_toml(text);
+    CHECK(table.table[0].value.text == "\\t+\\n");
+    CHECK(table.table[0].value.content.jumps.empty());
+  }
+  CHECK(cli::parse_toml("a = \"\"\"\r\n\\t+\\n\"\"\"").table[0].value.content.jumps.size() == 2);
 }
 
 TEST_CASE("what is looked at of a constraint that is a power is told with what is wrong of it") {
