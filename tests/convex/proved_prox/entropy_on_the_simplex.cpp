@@ -56,5 +56,6 @@ TEST_CASE("a value that nothing tells from 0 has an error that counts it") {
   for (const double low : {-30.0, -35.0, -36.0, -40.0}) {
     const Value found = convex::decided_value(g, plain, Vector{{0, low}});
     CHECK(std::abs(found.value - std::exp(low)) <= found.error);
+    CHECK(found.error <= 1e-12);
   }
 }
