@@ -150,16 +150,25 @@ std::optional<ExactProgram> as_it_is(const Atom& h, Index n) {
   return exact(LinearQuadratic{n, form->Q, form->c, form->constant, SparseRows(0, n), Vector(0), {}});
 }
 
+/// The constant beside the entries that h is a sum of; none where it is no such sum, or its constant is
+/// rounded.
+std::optional<double> beside_entries(const Atom& h) {
+  if (!h.facts().separable || !h.entry(0)) return std::nullopt;
+  const auto constant = h.constant_beside_entries();
+  const bool is_exact = constant && std::isfinite(constant->value) && constant->error == 0;
+  return is_exact ? std::optional(constant->value) : std::nullopt;
+}
+
 /// h itself where it is a program; else `touching` for it, entry by entry where it is a sum of these.
 template <class Touching>
 std::optional<ExactProgram> by_entries(const Atom& h, const Touched& points, const Touching& touching) {
   if (auto program = as_it_is(h, points.front().size())) return program;
-  const auto constant = h.facts().separable ? h.constant_beside_entries() : std::nullopt;
-  if (!constant || !is_known(*constant) || constant->error > 0) return touching(h, points);
+  const auto constant = beside_entries(h);
+  if (!constant) return touching(h, points);
   std::vector<ExactProgram> entries;
   for (Index i = 0; i < points.front().size(); ++i) {
     const auto of_entry = h.entry(i);
-    if (!of_entry) return touching(h, points);
+    if (!of_entry) return std::nullopt;
     Touched at;
     for (const Vector& u : points) at.push_back(Vector::Constant(1, u[i]));
     auto program = touching(of_entry->node(), at);
@@ -167,7 +176,7 @@ std::optional<ExactProgram> by_entries(const Atom& h, const Touched& points, con
     entries.push_back(*std::move(program));
   }
   ExactProgram made = exact_programs::separable(entries);
-  made.constant = made.constant + fraction(constant->value);
+  made.constant = made.constant + fraction(*constant);
   return made;
 }
 
@@ -230,7 +239,7 @@ double roundings_of_slopes(const GraphForm& f, const std::vector<Vector>& points
   for (const GraphTerm& term : f.terms) {
     const auto epigraph = parts_of_epigraph(*term.f);
     const Atom& h = epigraph ? *epigraph->f : *term.f;
-    if (h.facts().separable || h.facts().piecewise_quadratic) continue;
+    if (beside_entries(h) || h.facts().piecewise_quadratic) continue;
     const Vector u = argument(term, xi);
     for (const Vector& point : points) {
       const Vector touched = argument(term, point);
