@@ -129,6 +129,23 @@ Integer truncated_quotient(const Integer& a, const Integer& b) {
   return made([&](mpz_t r) { mpz_tdiv_q(r, View(a), View(b)); });
 }
 
+Integer difference_of_products(const Integer& a, const Integer& b, const Integer& c, const Integer& d) {
+  std::int64_t first = 0, second = 0, difference = 0;
+  if (a.is_small(b) && c.is_small(d) && !__builtin_mul_overflow(a.small_, b.small_, &first) &&
+      !__builtin_mul_overflow(c.small_, d.small_, &second) &&
+      !__builtin_sub_overflow(first, second, &difference))
+    return difference;
+  return made([&](mpz_t r) {
+    mpz_mul(r, View(a), View(b));
+    mpz_submul(r, View(c), View(d));
+  });
+}
+
+bool is_multiple(const Integer& a, const Integer& b) {
+  if (a.is_small(b)) return b.small_ == -1 || a.small_ % b.small_ == 0;
+  return mpz_divisible_p(View(a), View(b)) != 0;
+}
+
 Integer greatest_common_divisor(const Integer& a, const Integer& b) {
   constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
   if (a.is_small(b) && a.small_ != lowest && b.small_ != lowest) return std::gcd(a.small_, b.small_);

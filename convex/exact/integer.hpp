@@ -59,6 +59,11 @@ class Integer {
   friend Integer exact_quotient(const Integer& a, const Integer& b);
   /// a / b, b not 0, towards 0.
   friend Integer truncated_quotient(const Integer& a, const Integer& b);
+  /// a b - c d.
+  friend Integer difference_of_products(const Integer& a, const Integer& b, const Integer& c,
+                                        const Integer& d);
+  /// Whether a / b, b not 0, leaves nothing.
+  friend bool is_multiple(const Integer& a, const Integer& b);
   /// The greatest common divisor, >= 0; that of 0 and 0 is 0.
   friend Integer greatest_common_divisor(const Integer& a, const Integer& b);
   /// a / b, b > 0, rounded to nearest, ties to even; infinite when it is beyond all doubles.
@@ -91,6 +96,8 @@ class Integer {
 
 Integer exact_quotient(const Integer& a, const Integer& b);
 Integer truncated_quotient(const Integer& a, const Integer& b);
+Integer difference_of_products(const Integer& a, const Integer& b, const Integer& c, const Integer& d);
+bool is_multiple(const Integer& a, const Integer& b);
 Integer greatest_common_divisor(const Integer& a, const Integer& b);
 double nearest_quotient(const Integer& a, const Integer& b);
 

@@ -60,12 +60,58 @@ std::vector<std::pair<Index, Fraction>> null_vector(const std::vector<Index>& ba
   return mu;
 }
 
-std::vector<std::vector<Fraction>> columns(const std::vector<ExactVector>& T) {
-  std::vector<std::vector<Fraction>> found(T.size());
-  for (std::size_t j = 0; j < T.size(); ++j)
-    for (std::size_t k = 0; k < T[j].numerators.size(); ++k) found[j].push_back(entry(T[j], k));
-  return found;
+/// The unit in which row a is primitive, the common divisor of its entries; 1 where all are 0. However far
+/// apart the units of rows are told, their tableau in these is the same.
+Fraction primitive_unit(const ExactProblem& problem, Index a) {
+  Integer divisor;
+  for (const Integer& entry : problem.U[at(a)]) divisor = greatest_common_divisor(divisor, entry);
+  if (divisor.is_zero()) return {1, 1};
+  return lowest_terms({std::move(divisor), problem.row_unit[at(a)]});
 }
+
+/// The tableau of rows, at lambda. Its numbers are multipliers times the unit of their row and the
+/// denominator of lambda.
+class ExactPolyhedron {
+ public:
+  /// T: coefficients of the dependent rows in the basic ones.
+  ExactPolyhedron(const ExactProblem& problem, const ExactVector& lambda, const std::vector<Index>& basic,
+                  const std::vector<Index>& dependent, const std::vector<ExactVector>& T,
+                  const std::vector<bool>& is_free)
+      : unit_(problem.U.size()), denominator_(lambda.denominator) {
+    for (const auto* rows : {&basic, &dependent})
+      for (const Index a : *rows) unit_[at(a)] = primitive_unit(problem, a);
+    std::vector<Fraction> all;  // the values, then T by columns
+    for (const Index a : basic) all.push_back(Fraction{lambda.numerators[at(a)], 1} * unit_[at(a)]);
+    for (std::size_t p = 0; p < dependent.size(); ++p)
+      for (std::size_t k = 0; k < basic.size(); ++k)
+        all.push_back(entry(T[p], k) * unit_[at(basic[k])] / unit_[at(dependent[p])]);
+    ExactVector numbers = exact_vector(all);
+    auto column = [&, next = numbers.numerators.begin()]() mutable {
+      const auto begin = next;
+      next += static_cast<std::ptrdiff_t>(basic.size());
+      return IntegerVector(begin, next);
+    };
+    IntegerVector value = column();
+    std::vector<IntegerVector> columns(dependent.size());
+    for (IntegerVector& of_row : columns) of_row = column();
+    tableau_.emplace(basic, std::move(value), dependent, std::move(columns), is_free,
+                     std::move(numbers.denominator));
+  }
+
+  void allow(double words) { tableau_->allow(words); }
+  bool is_spent() const { return tableau_->is_spent(); }
+  ExactInterval range(Index a) {
+    ExactInterval range = tableau_->range(a);
+    for (std::optional<Fraction>* end : {&range.low, &range.high})
+      if (*end) *end = **end / (Fraction{denominator_, 1} * unit_[at(a)]);
+    return range;
+  }
+
+ private:
+  std::vector<Fraction> unit_;
+  Integer denominator_;
+  std::optional<MultiplierTableau<Integer>> tableau_;
+};
 
 /// The shortest lambda with Σ lambda_a u_a = r, the reaction, and lambda_a >= 0 on one-sided rows. By the
 /// conditions of Karush, Kuhn and Tucker lambda = (U w)⁺, the ⁺ on one-sided rows. With the rows known that
@@ -225,7 +271,7 @@ ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolut
 
 double words_of_ranges(std::size_t multipliers, std::size_t dependent) {
   const double all = static_cast<double>(multipliers), d = static_cast<double>(dependent);
-  return 2 * all * (all - d) * d * words_of_fraction;
+  return 2 * all * (all - d) * d * words_of_entry;
 }
 
 std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, const ExactSolution& solution,
@@ -256,9 +302,7 @@ std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, c
     const std::vector<ExactVector> T = expansions(problem, *basis, basic, dependent);
     for (std::size_t p = 0; p < dependent.size(); ++p)
       found.null_space.push_back(null_vector(basic, T[p], dependent[p]));
-    std::vector<Fraction> value;
-    for (Index a : basic) value.push_back(entry(solution.lambda, at(a)));
-    MultiplierTableau<Fraction> all(basic, value, dependent, columns(T), is_free);
+    ExactPolyhedron all(problem, solution.lambda, basic, dependent, T, is_free);
     all.allow(left + of_ranges);
     // They are unique when every dependent row keeps its multiplier 0.
     for (Index p : dependent) {

@@ -4,15 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/invariant.hpp"
 #include "convex/vector.hpp"
 
 namespace convex::inline multiplier_sets {
 
-/// Word operations of a product and a sum in lowest terms, of numbers of a word.
-inline constexpr double words_of_fraction = 500;
+/// Word operations of what a pivot does to one entry, of numbers of a word.
+inline constexpr double words_of_entry = 200;
 
 /// [low, high]; none is infinite.
 template <class Number>
@@ -22,17 +24,23 @@ struct MultiplierRange {
 
 /// The polyhedron of multipliers at one of its vertices, as a simplex tableau: the basic multipliers are
 /// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0. In doubles, where
-/// what rounding leaves about 0 counts as 0, or in fractions.
+/// what rounding leaves about 0 counts as 0, or in integers over one denominator, the least: a pivot without
+/// fractions (Edmonds 1967) has no common divisor to find but the denominator, which all entries share as a
+/// rule.
 template <class Number>
 class MultiplierTableau {
  public:
   using Numbers = std::vector<Number>;
+  static constexpr bool is_rounded = std::is_same_v<Number, double>;
+  /// Of a multiplier.
+  using Value = std::conditional_t<is_rounded, double, Fraction>;
 
   /// basic: names of the basic multipliers with their values (>= 0 where not free); nonbasic: those at 0,
-  /// each with its column of T, one entry a basic one; is_free: by name.
+  /// each with its column of T, one entry a basic one; is_free: by name. Values and T are times
+  /// `denominator` > 0; so are the multipliers, whose unit the caller knows.
   MultiplierTableau(std::vector<Index> basic, Numbers value, std::vector<Index> nonbasic,
-                    std::vector<Numbers> T, std::vector<bool> is_free)
-      : now_{std::move(basic), std::move(nonbasic), std::move(value), std::move(T)},
+                    std::vector<Numbers> T, std::vector<bool> is_free, Number denominator = 1)
+      : now_{std::move(basic), std::move(nonbasic), std::move(value), std::move(T), std::move(denominator)},
         free_(std::move(is_free)),
         unbounded_(free_.size(), false),
         fixed_(now_.nonbasic.size(), false) {
@@ -55,7 +63,7 @@ class MultiplierTableau {
 
   /// The interval of the multiplier named `a` over the polyhedron; not a number where rounding keeps the
   /// pivots from an end.
-  MultiplierRange<Number> range(Index a) {
+  MultiplierRange<Value> range(Index a) {
     if (unbounded_[at(a)] || is_spent()) return {};
     // The next range is found from the tableau at the start, where that costs little or many pivots have
     // been made since: rounding does not add up.
@@ -67,11 +75,11 @@ class MultiplierTableau {
       pivots_ = 0;
       growth_ = start_growth_;
     }
-    std::optional<Number> low = extreme(a, false);
+    std::optional<Value> low = extreme(a, false);
     return {std::move(low), extreme(a, true)};
   }
 
-  /// In fractions: no more pivots once they took so many word operations. Then ranges are not to be used.
+  /// In integers: no more pivots once they took so many word operations. Then ranges are not to be used.
   void allow(double words) { most_words_ = words; }
   bool is_spent() const { return words_ > most_words_; }
 
@@ -80,16 +88,18 @@ class MultiplierTableau {
   bool is_in_doubt() const { return is_in_doubt_; }
 
  private:
-  static constexpr bool is_rounded = std::is_same_v<Number, double>;
   /// What pivots change.
   struct State {
     std::vector<Index> basic, nonbasic;
     Numbers value;
     std::vector<Numbers> T;  ///< by columns
+    Number denominator = 1;
   };
+  /// The step value / rate after which a basic multiplier is 0.
   struct Block {
     std::size_t row = none;
-    Number step{};
+    Number value{}, rate = 1;
+    friend bool operator<(const Block& a, const Block& b) { return a.value * b.rate < b.value * a.rate; }
   };
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   bool is_free(Index name) const { return free_[at(name)]; }
@@ -97,7 +107,7 @@ class MultiplierTableau {
     if constexpr (is_rounded)
       return x == 0;
     else
-      return sign(x) == 0;
+      return x.is_zero();
   }
   /// Whether x > 0 beyond rounding, which a small pivot makes larger.
   bool is_positive(const Number& x) const {
@@ -106,7 +116,7 @@ class MultiplierTableau {
       if (std::abs(x) <= noise && std::abs(x) > rounding) is_in_doubt_ = true;
       return !(x <= noise);
     } else {
-      return sign(x) > 0;
+      return x.sign() > 0;
     }
   }
 
@@ -117,12 +127,13 @@ class MultiplierTableau {
       const Index name = now_.basic[k];
       if (is_free(name)) continue;
       const Number& entry = now_.T[column][k];
-      const Number rate = grows ? entry : -entry;
+      Number rate = grows ? entry : -entry;
       if (!is_positive(rate)) continue;
-      Number ratio = value_noise_ < now_.value[k] ? now_.value[k] / rate : Number{};
+      Block block{k, value_noise_ < now_.value[k] ? now_.value[k] : Number{}, std::move(rate)};
+      if constexpr (is_rounded) block = {k, block.value / block.rate, 1};
       const bool is_first =
-          first.row == none || ratio < first.step || (!(first.step < ratio) && name < now_.basic[first.row]);
-      if (is_first) first = {k, std::move(ratio)};
+          first.row == none || block < first || (!(first < block) && name < now_.basic[first.row]);
+      if (is_first) first = std::move(block);
     }
     return first;
   }
@@ -137,7 +148,14 @@ class MultiplierTableau {
       const double part = std::abs(now_.T[column][row]) / largest;
       if (part < least_part) is_in_doubt_ = true;
       growth_ = std::max(growth_, 1 / part);
+      pivot_in_doubles(row, column);
+    } else {
+      pivot_in_integers(row, column);
     }
+    std::swap(now_.basic[row], now_.nonbasic[column]);
+  }
+
+  void pivot_in_doubles(std::size_t row, std::size_t column) {
     const Number element = now_.T[column][row], entering = now_.value[row] / element;
     Numbers& of_entering = now_.T[column];
     // The dependences of sparse rows are sparse.
@@ -145,10 +163,7 @@ class MultiplierTableau {
     for (std::size_t k = 0; k < of_entering.size(); ++k)
       if (k != row && !is_zero(of_entering[k])) changing_.push_back(k);
     const auto subtract = [&](Numbers& from, const Number& factor) {
-      for (const std::size_t k : changing_) {
-        from[k] = from[k] - of_entering[k] * factor;
-        if constexpr (!is_rounded) words_ += words_of_difference(from[k], of_entering[k], factor);
-      }
+      for (const std::size_t k : changing_) from[k] = from[k] - of_entering[k] * factor;
       from[row] = factor;
     };
     subtract(now_.value, entering);
@@ -156,7 +171,59 @@ class MultiplierTableau {
       if (j != column && !is_zero(now_.T[j][row])) subtract(now_.T[j], now_.T[j][row] / element);
     for (Number& entry : of_entering) entry = -entry / element;
     of_entering[row] = Number{1} / element;
-    std::swap(now_.basic[row], now_.nonbasic[column]);
+  }
+
+  /// With T = t / D and the pivot p = t_rc, over p D: t_kj p - t_kc t_rj beside row r and column c, D t_rj
+  /// and -D t_kc in them, D² where they meet. Then all over what they share: D, where it is a minor of
+  /// integer rows, and whatever else.
+  void pivot_in_integers(std::size_t row, std::size_t column) {
+    Numbers& of_entering = now_.T[column];
+    const Number pivot = of_entering[row], denominator = now_.denominator;
+    Number shared = denominator;
+    const auto cross = [&](Numbers& of_column) {
+      for (std::size_t k = 0; k < of_column.size(); ++k) {
+        if (k == row) continue;
+        Number& entry = of_column[k];
+        entry = difference_of_products(entry, pivot, of_entering[k], of_column[row]);
+        if (entry.is_zero()) continue;
+        words_ += words_of(entry);
+        if (!is_multiple(entry, shared)) shared = greatest_common_divisor(shared, entry);
+      }
+    };
+    const auto others = [&](const auto& change) {
+      change(now_.value);
+      for (std::size_t j = 0; j < now_.T.size(); ++j)
+        if (j != column) change(now_.T[j]);
+    };
+    others(cross);
+    // Over |p|, which is positive.
+    const bool flips = pivot.sign() < 0;
+    const Number divisor = flips ? -shared : shared, factor = exact_quotient(denominator, divisor);
+    others([&](Numbers& of_column) {
+      for (std::size_t k = 0; k < of_column.size(); ++k)
+        of_column[k] = k == row ? of_column[k] * factor : exact_quotient(of_column[k], divisor);
+    });
+    for (std::size_t k = 0; k < of_entering.size(); ++k)
+      of_entering[k] = k == row ? denominator * factor : -(of_entering[k] * factor);
+    now_.denominator = pivot * factor;
+    make_primitive();
+  }
+
+  void make_primitive() {
+    const auto all = [&](const auto& change) {
+      change(now_.value);
+      for (Numbers& of_column : now_.T) change(of_column);
+    };
+    Number shared = now_.denominator;
+    all([&](const Numbers& numbers) {
+      for (const Number& x : numbers)
+        if (!(shared == Number{1})) shared = greatest_common_divisor(shared, x);
+    });
+    if (shared == Number{1}) return;
+    all([&](Numbers& numbers) {
+      for (Number& x : numbers) x = exact_quotient(x, shared);
+    });
+    now_.denominator = exact_quotient(now_.denominator, shared);
   }
 
   /// Free multipliers enter the basis for good; one that no sign hinders moves its partners without bound.
@@ -164,7 +231,7 @@ class MultiplierTableau {
     for (std::size_t column = 0; column < now_.T.size(); ++column) {
       if (!is_free(now_.nonbasic[column])) continue;
       const Block up = blocking_row(column, true), down = blocking_row(column, false);
-      const Block& nearer = up.row != none && (down.row == none || !(down.step < up.step)) ? up : down;
+      const Block& nearer = up.row != none && (down.row == none || !(down < up)) ? up : down;
       if (nearer.row != none) {
         pivot(nearer.row, column);
         // What left the basis is one-sided and at zero; the free one is basic and stays.
@@ -191,7 +258,7 @@ class MultiplierTableau {
     return entering;
   }
 
-  std::optional<Number> extreme(Index a, bool rises) {
+  std::optional<Value> extreme(Index a, bool rises) {
     // By the rule of Bland (1977), the entering multiplier of least name that improves, the leaving one of
     // least name, nothing comes back. The steepest column enters; after a step of length 0 the rule holds
     // until there is a longer one. So nothing comes back, but for rounding: then the rule holds to the end,
@@ -202,7 +269,7 @@ class MultiplierTableau {
       const auto position = std::find(now_.basic.begin(), now_.basic.end(), a);
       std::size_t entering = none;
       if (position == now_.basic.end()) {
-        if (!rises) return Number{};  // nonbasic and one-sided: at its least value
+        if (!rises) return Value{};  // nonbasic and one-sided: at its least value
         entering = at(std::find(now_.nonbasic.begin(), now_.nonbasic.end(), a) - now_.nonbasic.begin());
         invariant(entering < now_.nonbasic.size(), "a tight row is basic or nonbasic");
       } else {
@@ -212,28 +279,26 @@ class MultiplierTableau {
       }
       const Block block = blocking_row(entering, true);
       if (block.row == none) return std::nullopt;
-      by_name = !(Number{} < block.step) || count >= usual;
+      by_name = !(Number{} < block.value) || count >= usual;
       pivot(block.row, entering);
     }
     if constexpr (is_rounded) return std::numeric_limits<double>::quiet_NaN();
     return std::nullopt;
   }
 
-  /// Of a = d - b c in lowest terms: a common divisor takes some operations on each pair of words.
-  static double words_of_difference(const Number& a, const Number& b, const Number& c) {
-    const auto bits = [](const Number& x) {
-      return static_cast<double>(x.numerator.bits() + x.denominator.bits());
-    };
-    const double words = 1 + (bits(a) + bits(b) + bits(c)) / 64;
-    return words_of_fraction + words * words;
+  /// Of two products, their difference and its quotient by what all share.
+  static double words_of(const Number& entry) {
+    constexpr double bits_of_word = 64;
+    const double words = static_cast<double>(entry.bits()) / bits_of_word;
+    return words_of_entry + words * words;
   }
 
-  Number without_noise(const Number& value, bool may_be_negative) const {
+  Value without_noise(const Number& value, bool may_be_negative) const {
     if constexpr (is_rounded) {
       const double end = may_be_negative ? value : std::max(0.0, value);
       return std::abs(end) <= value_noise_ ? 0 : end;
     } else {
-      return value;
+      return lowest_terms({value, now_.denominator});
     }
   }
 

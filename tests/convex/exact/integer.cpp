@@ -43,7 +43,14 @@ TEST_CASE("integers add, multiply, compare and print as those of GMP, on both si
       CHECK((a == b) == (gmp(a) == gmp(b)));
       CHECK((a + b).fits_word() == mpz_class(gmp(a) + gmp(b)).fits_slong_p());
       CHECK(greatest_common_divisor(a, b).text() == digits(gcd(gmp(a), gmp(b))));
-      if (!b.is_zero()) CHECK(exact_quotient(a * b, b).text() == a.text());
+      for (const Integer& c : {a, Integer(3), a * b}) {
+        CHECK(difference_of_products(a, b, c, b).text() == digits(gmp(a) * gmp(b) - gmp(c) * gmp(b)));
+        CHECK(difference_of_products(a, b, b, a).is_zero());
+      }
+      if (b.is_zero()) continue;
+      CHECK(exact_quotient(a * b, b).text() == a.text());
+      CHECK(is_multiple(a * b, b));
+      CHECK(is_multiple(a, b) == (gmp(a) % gmp(b) == 0));
     }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/multipliers/multipliers.hpp"
@@ -248,4 +249,33 @@ TEST_CASE("few dependent rows get the same multipliers whether their work is lim
   REQUIRE(limited);
   const ExactMultipliers free = convex::exact_multipliers(exact, solution, true);
   CHECK(convex::nearest(limited->least_norm) == convex::nearest(free.least_norm));
+}
+
+TEST_CASE(
+    "the ranges of multipliers are the same in any units of the rows, and take no more work in others") {
+  const NearestPointProblem problem = many_rows_at_a_vertex(12, 60);
+  NearestPointProblem other = problem;
+  RowMatrix U = problem.U.dense();
+  const auto exponent = [](Index a) { return static_cast<int>((29 * a) % 41) - 20; };
+  for (Index a = 0; a < U.rows(); ++a) U.row(a) *= std::ldexp(1.0, exponent(a));
+  other.U = convex::ConstraintRows(U);
+  constexpr double part = 0.01;
+  const auto ranges = [&](const NearestPointProblem& of) {
+    const ExactProblem exact = convex::exact_problem(of);
+    const auto found = convex::exact_multipliers(exact, convex::exact_active_set(exact, {}), true,
+                                                 part * convex::most_word_operations);
+    REQUIRE(found);
+    return *found->ranges;
+  };
+  const auto first = ranges(problem), second = ranges(other);
+  const auto in_unit = [](const std::optional<convex::Fraction>& end, int shift) {
+    return end ? convex::nearest_double(*end) * std::ldexp(1.0, shift) : convex::infinity;
+  };
+  bool is_free = false;
+  for (std::size_t a = 0; a < first.size(); ++a) {
+    CHECK(in_unit(first[a].low, 0) == in_unit(second[a].low, exponent(static_cast<Index>(a))));
+    CHECK(in_unit(first[a].high, 0) == in_unit(second[a].high, exponent(static_cast<Index>(a))));
+    is_free |= !first[a].high || !(*first[a].low == *first[a].high);
+  }
+  CHECK(is_free);
 }
