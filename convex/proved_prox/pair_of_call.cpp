@@ -249,4 +249,15 @@ PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& 
   return combination_at_covector(f, W, v);
 }
 
+PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
+  PairSearch found = pair_at_covector(f, W, v);
+  if (found.pair || exact_program(f, W)) return found;
+  const PairOfPart of_part = [](const Call& part, const ExactGram& metric, const Fractions& point,
+                                const Fractions& covector) {
+    return pair_at_covector(part, metric, point, covector);
+  };
+  if (auto changed = pair_by_change_of_variables(f, W, x, v, of_part)) return *std::move(changed);
+  return combination_near_covector(f, W, x, v);
+}
+
 }  // namespace convex::inline proved_prox

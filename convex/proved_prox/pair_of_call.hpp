@@ -21,6 +21,9 @@ PairSearch pair_of_call(const Call& f, const ExactGram& W, const Fractions& x, c
 PairSearch pair_at_point(const Call& f, const ExactGram& W, const Fractions& x);
 /// A pair with this v exactly.
 PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& v);
+/// The same where x near the supremum of x·v - f(x) is known, from which that of an operation is found whose
+/// parts choose theirs by it.
+PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v);
 
 /// How a pair of a part is found: near x and v, or with one of them exactly, whatever the other is.
 using PairOfPart =
@@ -37,5 +40,8 @@ PairSearch pair_of_combination(const Call& f, const ExactGram& W, const Fraction
 PairSearch combination_at_point(const Call& f, const ExactGram& W, const Fractions& x);
 /// Of inf_convolution with this v exactly.
 PairSearch combination_at_covector(const Call& f, const ExactGram& W, const Fractions& v);
+/// Of all of them with this v exactly and x near the point; none where no such pair is found.
+PairSearch combination_near_covector(const Call& f, const ExactGram& W, const Fractions& x,
+                                     const Fractions& v);
 
 }  // namespace convex::inline proved_prox

@@ -2,112 +2,13 @@
 
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/exact_program/exact_arguments.hpp"
-#include "convex/exact_program/program_of_call.hpp"
-#include "convex/exact_program/program_operations.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
+#include "convex/proved_prox/pair_of_sum.hpp"
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
 namespace convex::inline proved_prox {
 namespace {
-
-/// The parts of a sum: those with programs as one, the others each.
-std::vector<Call> parts_of_sum(const Call& f, const ExactGram& W) {
-  const ExactArguments a(f, W.dimension());
-  Call programs{"sum", {}, {}};
-  std::vector<Call> parts;
-  for (const Call* one : a.calls()) {
-    if (exact_program(*one, W))
-      programs.arguments.push_back(argument(*one));
-    else
-      parts.push_back(*one);
-  }
-  if (!programs.arguments.empty()) parts.push_back(std::move(programs));
-  return parts;
-}
-
-/// Where both parts have corners: a program and a ball, or the norm that supports one.
-struct ProgramAndBall {
-  ExactProgram P;
-  Fraction radius;
-  Fractions centre;
-};
-
-std::optional<ProgramAndBall> program_and_ball(const std::vector<Call>& parts, bool conjugate,
-                                               const ExactGram& W) {
-  if (parts.size() != 2) return std::nullopt;
-  for (const std::size_t k : {0, 1}) {
-    const Call* ball = &parts[1 - k];
-    if (ball->name == "indicator")
-      ball = std::get<std::shared_ptr<const Call>>(ball->arguments[0].value).get();
-    if (ball->name != (conjugate ? "norm2" : "ball2")) continue;
-    const auto program = exact_program(parts[k], W);
-    if (!program) continue;
-    const ExactArguments a(*ball, W.dimension());
-    if (conjugate)
-      return ProgramAndBall{exact_programs::conjugate(*program), a.number("weight"),
-                            Fractions(W.dimension())};
-    return ProgramAndBall{*program, a.number("radius"), a.vector("center")};
-  }
-  return std::nullopt;
-}
-
-/// Of a program at x, with the subgradient nearest to v: that of a short step along v.
-PairSearch program_pair_towards(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
-  const auto program = exact_program(f, W);
-  if (!program) return {};
-  const Fraction step = fraction(0x1p-20);
-  ExactGram V = identity_gram(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) V.rows[i] = {{i, Fraction{1} / step}};
-  const auto moved = exact_prox(*program, V, pairs::sum_of(x, pairs::multiple_of(step, v))).at;
-  if (!moved) return {};
-  auto at = near_graph_point(*program, nearest(pairs::sum_of(x, moved->v)));
-  if (!at || at->x != x) return {};
-  return {proof_pair(std::move(*at)), {}};
-}
-
-/// Of two functions at one x the pair of their sum: (f + g)*(v + w) <= f*(v) + g*(w).
-void add_covector(ProofPair& sum, const ProofPair& part) {
-  sum.v = pairs::sum_of(sum.v, part.v);
-  sum.f_x = sum.f_x + part.f_x;
-  sum.f_v = sum.f_v + part.f_v;
-  sum.is_rational = sum.is_rational && part.is_rational;
-}
-
-/// f_1 + f_2 + …: one part takes what the gradients of the others leave of v, at a point that they share.
-PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
-  const std::vector<Call> parts = parts_of_sum(f, W);
-  std::vector<pairs::MaybePair> candidates;
-  for (std::size_t free = 0; free < parts.size(); ++free) {
-    const auto others_at = [&](const Fractions& point) -> pairs::MaybePair {
-      ProofPair sum{point, Fractions(x.size()), only(Fraction{}), only(Fraction{}), true};
-      for (std::size_t k = 0; k < parts.size(); ++k) {
-        if (k == free) continue;
-        PairSearch at = pair_at_point(parts[k], W, point);
-        if (!at.pair) return std::nullopt;
-        if (parts.size() == 2) {
-          PairSearch towards = program_pair_towards(parts[k], W, point, v);
-          if (towards.pair) at = std::move(towards);
-        }
-        add_covector(sum, *at.pair);
-      }
-      return sum;
-    };
-    // Where the others are no functions at x itself, they say what is left of v at the point of the free one.
-    const pairs::MaybePair guess = others_at(x);
-    const Fractions left = guess ? difference(v, guess->v) : v;
-    const PairSearch own = pair_of_call(parts[free], W, x, left);
-    if (!own.pair) continue;
-    pairs::MaybePair whole = others_at(own.pair->x);
-    if (!whole) continue;
-    add_covector(*whole, *own.pair);
-    candidates.push_back(std::move(whole));
-  }
-  if (const auto both = program_and_ball(parts, false, W))
-    candidates.push_back(pairs::of_program_and_ball(both->P, both->radius, both->centre, x, v));
-  if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
-  return {{}, f.name + ": more than one of its parts has a corner at the point"};
-}
 
 /// f □ g at x_1 + x_2, both with the covector v.
 PairSearch pair_of_inf_convolution(const Call& f, const ExactGram& W, const Fractions& x,
@@ -205,31 +106,49 @@ PairSearch pair_of_max(const Call& f, const ExactGram& W, const Fractions& x, co
   return {{}, f.name + ": a part cannot be valued at the point of another"};
 }
 
-/// f(Ax + b) where f is differentiable at Ax + b: (f ∘ A)*(Aᵀu) <= f*(u) - b·u.
+/// Ax + b, and the function there where it is differentiable.
+struct Image {
+  std::vector<ExactRow> A;
+  Fractions b, point;
+  PairSearch inner;
+
+  Image(const Call& f, const ExactArguments& a, const Fractions& x)
+      : A(a.rows("A")),
+        b(a.is_vector("b") ? a.vector("b") : Fractions(A.size(), a.number("b"))),
+        point(A.size()) {
+    for (std::size_t i = 0; i < A.size(); ++i) point[i] = dot(A[i], x) + b[i];
+    inner = pair_at_point(a.call("f"), identity_gram(A.size()), point);
+    if (!inner.pair) inner.why_none = f.name + ": its function has a corner at the point";
+  }
+};
+
+/// f(Ax + b): (f ∘ A)*(Aᵀu) <= f*(u) - b·u.
 PairSearch pair_of_precompose(const Call& f, const ExactGram& W, const Fractions& x) {
-  const ExactArguments a(f, W.dimension());
-  const std::vector<ExactRow> A = a.rows("A");
-  const Fractions b = a.is_vector("b") ? a.vector("b") : Fractions(A.size(), a.number("b"));
-  Fractions image(A.size());
-  for (std::size_t i = 0; i < A.size(); ++i) image[i] = dot(A[i], x) + b[i];
-  PairSearch inner = pair_at_point(a.call("f"), identity_gram(A.size()), image);
-  if (!inner.pair) return {{}, f.name + ": its function has a corner at the point"};
+  const Image image(f, ExactArguments(f, W.dimension()), x);
+  if (!image.inner.pair) return image.inner;
+  const ProofPair& inner = *image.inner.pair;
   Fractions v(x.size());
-  for (std::size_t i = 0; i < A.size(); ++i)
-    for (const auto& [j, value] : A[i]) v[j] = v[j] + value * inner.pair->v[i];
-  const FractionInterval f_v = inner.pair->f_v + only(-dot(b, inner.pair->v));
-  return {ProofPair{x, std::move(v), inner.pair->f_x, f_v, inner.pair->is_rational}, {}};
+  for (std::size_t i = 0; i < image.A.size(); ++i)
+    for (const auto& [j, value] : image.A[i]) v[j] = v[j] + value * inner.v[i];
+  return {ProofPair{x, std::move(v), inner.f_x, inner.f_v + only(-dot(image.b, inner.v)), inner.is_rational},
+          {}};
 }
 
-/// Of the parts at x: of each gradient, so that the covectors add up.
-PairSearch sum_at_point(const Call& f, const ExactGram& W, const Fractions& x) {
-  ProofPair sum{x, Fractions(x.size()), only(Fraction{}), only(Fraction{}), true};
-  for (const Call& part : parts_of_sum(f, W)) {
-    const PairSearch at = pair_at_point(part, W, x);
-    if (!at.pair) return at;
-    add_covector(sum, *at.pair);
-  }
-  return {std::move(sum), {}};
+/// The same with a u near the gradient and Aᵀu = v.
+PairSearch precompose_at_covector(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
+  const ExactArguments a(f, W.dimension());
+  const Image image(f, a, x);
+  if (!image.inner.pair) return image.inner;
+  std::vector<ExactEquation> equations(v.size());
+  for (std::size_t j = 0; j < v.size(); ++j) equations[j].right = v[j];
+  for (std::size_t i = 0; i < image.A.size(); ++i)
+    for (const auto& [j, value] : image.A[i]) equations[j].row.emplace(i, value);
+  const auto u = solve_near(std::move(equations), image.inner.pair->v);
+  if (!u) return {{}, f.name + ": the covector is in no image of the transpose of A"};
+  PairSearch taken = pair_at_covector(a.call("f"), identity_gram(image.A.size()), image.point, *u);
+  if (!taken.pair) return taken;
+  const FractionInterval f_v = taken.pair->f_v + only(-dot(image.b, *u));
+  return {ProofPair{x, v, image.inner.pair->f_x, f_v, false}, {}};
 }
 
 /// The part that is largest at x.
@@ -254,6 +173,15 @@ PairSearch combination_at_point(const Call& f, const ExactGram& W, const Fractio
   if (f.name == "pointwise_max") return max_at_point(f, W, x);
   if (f.name == "precompose") return pair_of_precompose(f, W, x);
   return {{}, f.name + ": no pair at a point that another part chooses"};
+}
+
+PairSearch combination_near_covector(const Call& f, const ExactGram& W, const Fractions& x,
+                                     const Fractions& v) {
+  if (f.name == "sum" || f.name == "intersection") return sum_at_covector(f, W, x, v);
+  if (f.name == "precompose") return precompose_at_covector(f, W, x, v);
+  PairSearch found = pair_of_call(f, W, x, v);
+  if (found.pair && !(found.pair->v == v)) return {{}, f.name + ": no pair at the covector itself"};
+  return found;
 }
 
 PairSearch combination_at_covector(const Call& f, const ExactGram& W, const Fractions& v) {

@@ -29,16 +29,17 @@ double ProvedValue::error_of(double value) const {
 
 namespace {
 
-/// A pair near the point where doubles find the supremum, if its covector is v itself.
-PairSearch pair_by_subgradient(const SplitQuestion& question, const Fractions& v, PairSearch otherwise) {
+/// A pair with the covector v, near the point where doubles find the supremum.
+PairSearch pair_by_subgradient(const SplitQuestion& question, const Fractions& v) {
+  const PairSearch not_attained{
+      {}, "doubles find no point of the supremum: a value that none attains, or that is +inf, is not proved"};
   const Function g = make_function(question.f, {rounded(question.W)}).conjugate(rounded(question.W));
   // ∂g(y) = W ∂f*(Wy): the maximisers x are W⁻¹ of a subgradient of g.
   const auto c = g.subgradient(nearest(question.z));
-  if (!c || !c->allFinite()) return otherwise;
+  if (!c || !c->allFinite()) return not_attained;
   const Vector x = rounded(question.W).solve(*c);
-  if (!x.allFinite()) return otherwise;
-  PairSearch found = pair_of_call(question.f, question.W, fractions(x), v);
-  return found.pair && found.pair->v == v ? found : otherwise;
+  if (!x.allFinite()) return not_attained;
+  return pair_at_covector(question.f, question.W, fractions(x), v);
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ ProvedValue proved_conjugate(const SplitQuestion& question) {
       return made;
     }
   PairSearch found = pair_at_covector(question.f, question.W, v);
-  if (!found.pair) found = pair_by_subgradient(question, v, std::move(found));
+  if (!found.pair) found = pair_by_subgradient(question, v);
   if (!found.pair) {
     made.why_none = found.why_none;
     return made;

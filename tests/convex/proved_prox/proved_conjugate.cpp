@@ -1,0 +1,66 @@
+#include "convex/proved_prox/proved_conjugate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "cli/function_language/parse_call.hpp"
+#include "convex/exact/ball.hpp"
+
+using namespace convex;
+
+namespace {
+
+ProvedValue proved(const std::string& f, const Vector& y) {
+  return proved_conjugate({cli::parse_call(f, "f"), fractions(y), identity_gram(at(y.size()))});
+}
+
+/// u log u - u, the conjugate of e^x.
+double of_exponential(double u) { return u * std::log(u) - u; }
+
+struct Known {
+  std::string f;
+  Vector y;
+  double value;
+};
+
+/// By hand; the two of more digits by mpmath 1.2, at the roots of x e^x = 1 and 2 - 2 e^(2x + 1) = x.
+const std::vector<Known> known_values = {
+    {"sum(norm2(), norm1())", Vector{{0.5, 0.25}}, 0},
+    {"sum(squared_norm2(), norm2())", Vector{{3, 4}}, 8},
+    {"sum(squared_norm2(), norm2(), linear([1, 1]))", Vector{{4, 5}}, 8},
+    {"sum(entropy(), indicator(simplex(1)))", Vector{{0, 0, 0}}, std::log(3)},
+    {"sum(exponential(), linear([1, 2]))", Vector{{2, 3}}, -2},
+    {"sum(exponential(), norm1())", Vector{{3}}, of_exponential(2)},
+    {"sum(exponential(), norm1())", Vector{{3, 0.25, -0.5}}, of_exponential(2) - 1 + of_exponential(0.5)},
+    {"sum(log_barrier(), squared_norm2())", Vector{{0, 0}}, -1},
+    {"sum(log_barrier(), exponential(), linear([1]))", Vector{{1}}, -2.3303661247616806},
+    {"precompose(exponential(), [[1, 0], [1, 1]], [0, 0])", Vector{{1.5, 0.25}},
+     of_exponential(1.25) + of_exponential(0.25)},
+    {"sum(precompose(exponential(), [[2]], [1]), squared_norm2())", Vector{{2}}, -2.1012464679202249},
+    {"translate(sum(squared_norm2(), norm2()), [1, 2])", Vector{{3, 4}}, 19},
+    {"scale(sum(squared_norm2(), norm2()), 2)", Vector{{6, 8}}, 16},
+};
+
+}  // namespace
+
+TEST_CASE("the conjugate of a sum is held between a point and the covectors that its parts take") {
+  if (!Ball::why_none().empty()) return;
+  for (const Known& known : known_values) {
+    CAPTURE(known.f);
+    const ProvedValue value = proved(known.f, known.y);
+    CAPTURE(value.why_none);
+    REQUIRE(value.level != ProofLevel::none);
+    const double rounding = 4 * unit_roundoff * std::max(1.0, std::abs(known.value));
+    CHECK(value.interval.low <= known.value + rounding);
+    CHECK(value.interval.high >= known.value - rounding);
+    CHECK(value.interval.high - value.interval.low <= 2 * rounding);
+  }
+}
+
+TEST_CASE("of a supremum that no point attains, or that is infinite, a proof says that it has none") {
+  if (!Ball::why_none().empty()) return;
+  const ProvedValue value = proved("sum(norm2(), norm1())", Vector{{1.5, 2.25}});
+  CHECK(value.level == ProofLevel::none);
+  CHECK(value.why_none.find("+inf") != std::string::npos);
+}
