@@ -61,6 +61,10 @@ MaybePair best_of(std::vector<MaybePair> candidates, const Fractions& x, const F
   return best;
 }
 
+ProofPair sum_at_one_point(const ProofPair& f, const ProofPair& g) {
+  return {f.x, sum_of(f.v, g.v), f.f_x + g.f_x, f.f_v + g.f_v, f.is_rational && g.is_rational};
+}
+
 MaybePair ball_at_point(const Fraction& radius, const Fractions& centre, const Fractions& x) {
   return judged(radius, centre, x, Fractions(x.size()));
 }

@@ -28,8 +28,8 @@ PairSearch pair_of_inf_convolution(const Call& f, const ExactGram& W, const Frac
                                    own.pair->is_rational && other.pair->is_rational});
   }
   if (const auto both = program_and_ball({*parts[0], *parts[1]}, true, W))
-    if (auto dual = pairs::of_program_and_ball(both->P, both->radius, both->centre, v, x))
-      candidates.push_back(turned_round(std::move(*dual)));
+    if (const auto dual = pairs::of_program_beside_ball(both->P, both->radius, both->centre, v, x))
+      candidates.push_back(turned_round(pairs::sum_at_one_point(dual->P, dual->ball)));
   if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
   return {{}, f.name + ": the conjugates of both parts have a corner at the covector"};
 }

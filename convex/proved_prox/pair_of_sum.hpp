@@ -14,9 +14,10 @@ struct ProgramAndBall {
   ExactProgram P;
   Fraction radius;
   Fractions centre;
+  std::size_t program, ball;  ///< which parts they are
 };
 
-/// Of two parts, the conjugates of both where `conjugate`; none of others.
+/// The first of each among the parts, the conjugates of both where `conjugate`; none without.
 std::optional<ProgramAndBall> program_and_ball(const std::vector<Call>& parts, bool conjugate,
                                                const ExactGram& W);
 

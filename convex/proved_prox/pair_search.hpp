@@ -17,9 +17,16 @@ MaybePair of_ball(const Fraction& radius, const Fractions& centre, const Fractio
 MaybePair ball_at_point(const Fraction& radius, const Fractions& centre, const Fractions& x);
 MaybePair ball_at_covector(const Fraction& radius, const Fractions& centre, const Fractions& v);
 
-/// P and the indicator of the ball, their sum, P piecewise linear-quadratic: a pair with x on the sphere.
-MaybePair of_program_and_ball(const ExactProgram& P, const Fraction& radius, const Fractions& centre,
-                              const Fractions& x, const Fractions& v);
+/// P, piecewise linear-quadratic, and the indicator of the ball at one point of the sphere.
+struct ProgramAndBallPairs {
+  ProofPair P, ball;
+};
+std::optional<ProgramAndBallPairs> of_program_beside_ball(const ExactProgram& P, const Fraction& radius,
+                                                          const Fractions& centre, const Fractions& x,
+                                                          const Fractions& v);
+
+/// Of two functions at one x the pair of their sum: (f + g)*(v + w) <= f*(v) + g*(w).
+ProofPair sum_at_one_point(const ProofPair& f, const ProofPair& g);
 
 /// log Σ e^x_i and Σ v_i log v_i on the simplex.
 MaybePair of_log_sum_exp(const Fractions& x, const Fractions& v);

@@ -29,8 +29,9 @@ std::optional<Fraction> part_of_way(const Fractions& a, const Fractions& b, cons
 
 }  // namespace
 
-MaybePair of_program_and_ball(const ExactProgram& P, const Fraction& radius, const Fractions& centre,
-                              const Fractions& x, const Fractions& v) {
+std::optional<ProgramAndBallPairs> of_program_beside_ball(const ExactProgram& P, const Fraction& radius,
+                                                          const Fractions& centre, const Fractions& x,
+                                                          const Fractions& v) {
   const Fraction square = radius * radius;
   const Fractions s = fractions(nearest(sum_of(x, v)));
   const auto is_inside = [&](const GraphPoint& at) {
@@ -70,8 +71,9 @@ MaybePair of_program_and_ball(const ExactProgram& P, const Fraction& radius, con
   const ExactValue value = exact_value(P, point), dual = exact_value(exact_programs::conjugate(P), of_P);
   const auto length = interval(sqrt(ball(arm_square)));
   if (value.end != ProgramEnd::minimum || dual.end != ProgramEnd::minimum || !length) return std::nullopt;
-  return ProofPair{point, sum_of(of_P, of_ball), only(value.value),
-                   only(dual.value + dot(centre, of_ball)) + times(radius * fraction(high), *length), false};
+  const FractionInterval support = only(dot(centre, of_ball)) + times(radius * fraction(high), *length);
+  return ProgramAndBallPairs{{point, of_P, only(value.value), only(dual.value), false},
+                             {point, of_ball, only(Fraction{}), support, false}};
 }
 
 }  // namespace convex::inline proved_prox::pairs

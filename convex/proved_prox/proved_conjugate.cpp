@@ -91,6 +91,16 @@ std::optional<double> quick_value(const ExactProgram& f, const Fractions& x) {
   return found.end == ProgramEnd::minimum ? nearest_double(found.value) : INFINITY;
 }
 
+/// What the terms may round at xi: their numbers are made in doubles, those of a curved function that has one
+/// point too.
+double roundings_of_terms(const GraphForm& f, const Vector& xi) {
+  double sum = 0;
+  for (const GraphTerm& term : f.terms)
+    if (const Value value = term.f->evaluate(term.M * xi + term.b); std::isfinite(value.error))
+      sum += term.scale * value.error;
+  return sum;
+}
+
 /// The value that doubles found, or the bounds that fractions prove it to be outside of.
 Value held_between(const Function& f, const Function& g, const Metric& W, const Vector& y, Value found) {
   const auto form = f.node().graph(y.size());
@@ -108,7 +118,8 @@ Value held_between(const Function& f, const Function& g, const Metric& W, const 
   if (!proved) return found;
   const double low = nearest_double(proved->low),
                high = proved->high ? nearest_double(*proved->high) : INFINITY;
-  const double rounding = unit_roundoff * (std::abs(low) + std::abs(found.value));
+  const double rounding =
+      unit_roundoff * (std::abs(low) + std::abs(found.value)) + roundings_of_terms(*form, xi);
   const bool is_inside = low - found.value <= rounding && found.value - high <= rounding;
   const double within = is_inside ? std::max(high - found.value, found.value - low) : infinity;
   if (within + rounding < found.error) return {found.value, within + rounding};

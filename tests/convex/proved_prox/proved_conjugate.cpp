@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/function_language/parse_call.hpp"
+#include "convex/catalogue/catalogue.hpp"
 #include "convex/exact/ball.hpp"
 
 using namespace convex;
@@ -40,6 +41,10 @@ const std::vector<Known> known_values = {
     {"sum(precompose(exponential(), [[2]], [1]), squared_norm2())", Vector{{2}}, -2.1012464679202249},
     {"translate(sum(squared_norm2(), norm2()), [1, 2])", Vector{{3, 4}}, 19},
     {"scale(sum(squared_norm2(), norm2()), 2)", Vector{{6, 8}}, 16},
+    {"sum(indicator(ball2(1)), indicator(orthant()))", Vector{{3, -1}}, 3},
+    {"sum(indicator(ball2(1)), indicator(orthant()), linear([0, 2]))", Vector{{3, 6}}, 5},
+    {"sum(exponential(), indicator(ball2(1)), indicator(orthant()))", Vector{{3, -1}}, 2 - std::exp(1.0)},
+    {"sum(norm2(1), norm_inf(9), squared_norm2())", Vector{{1, 2, -2}}, 0},
 };
 
 }  // namespace
@@ -63,4 +68,19 @@ TEST_CASE("of a supremum that no point attains, or that is infinite, a proof say
   const ProvedValue value = proved("sum(norm2(), norm1())", Vector{{1.5, 2.25}});
   CHECK(value.level == ProofLevel::none);
   CHECK(value.why_none.find("+inf") != std::string::npos);
+}
+
+TEST_CASE(
+    "the value of a conjugate whose domain is one point counts the roundings of its terms, which cancel") {
+  // f has the point 1/2 alone: f*(v) = v/2 - f(1/2), here -1/8 + 2 log(3/2) - log 2 (mpmath 1.2).
+  const std::string f =
+      "sum(scale(translate(log_barrier(), [-1]), 2), indicator(simplex(0.5)), log_barrier())";
+  const Vector y{{-0.25}};
+  const Metric plain = Metric::identity(1);
+  const Call call = cli::parse_call(f, "f");
+  const Value told =
+      decided_conjugate({call, fractions(y), exact_gram(plain)}, make_function(call, {plain}).conjugate(), y);
+  constexpr double truth = -0.0072169643436165455;
+  CHECK(told.error <= 1e-15);
+  CHECK(std::abs(told.value - truth) <= told.error);
 }
