@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
@@ -25,10 +27,21 @@ MaybePair judged(const Fraction& radius, const Fractions& centre, Fractions x, F
   return ProofPair{std::move(x), std::move(v), only(Fraction{}), *f_v, false};
 }
 
+/// d times a power of two, between 1/2 and 2 long, but for a bit: of an entropy it may be e^-3000.
+Fractions of_ordinary_length(Fractions d) {
+  const Fraction square = square_of(d);
+  const long bits = static_cast<long>(square.numerator.bits()) - static_cast<long>(square.denominator.bits()),
+             half = bits / 2;
+  const auto power = Integer::shifted(1, static_cast<unsigned long>(std::abs(half)));
+  return multiple_of(half > 0 ? Fraction{1, power} : Fraction{power, 1}, std::move(d));
+}
+
 /// centre + radius d/|d|, pulled inside by a little; d is not 0.
 Fractions boundary_point(const Fraction& radius, const Fractions& centre, const Fractions& d) {
   if (sign(radius) == 0) return centre;
-  return sum_of(centre, multiple_of(a_little_below(ball(radius) / sqrt(ball(square_of(d)))), d));
+  const Fractions direction = of_ordinary_length(d);
+  const Ball length = sqrt(ball(square_of(direction)));
+  return sum_of(centre, multiple_of(a_little_below(ball(radius) / length), direction));
 }
 
 }  // namespace

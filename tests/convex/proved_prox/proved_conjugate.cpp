@@ -84,3 +84,12 @@ TEST_CASE(
   CHECK(told.error <= 1e-15);
   CHECK(std::abs(told.value - truth) <= told.error);
 }
+
+TEST_CASE("a proof beside a point of e^-3000 and less is no defect") {
+  if (!Ball::why_none().empty()) return;
+  const ProvedValue value = proved("sum(norm2(0.5), norm1(9540), scale(entropy(), 3), hinge())",
+                                   Vector{{0.697253219703444, 0.8993131505962837, 2.7625051350845986}});
+  CHECK(value.level == ProofLevel::enclosure);
+  CHECK(value.interval.low <= -3);
+  CHECK(value.interval.high >= -3);
+}
