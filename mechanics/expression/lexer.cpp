@@ -62,6 +62,8 @@ Token Lexer::next() {
     case '>':
     case '<':
       if (after == '=') return token(c == '>' ? at_least : at_most, 2);
+      if (c == '<' && after == '>')
+        source_->fail(begin, "\"<>\" is no relation; write " + std::string(instead_of_unequal));
       return token(c == '>' ? more : less, 1);
     case '"': {
       const std::size_t close = text.find('"', begin + 1);
@@ -72,7 +74,13 @@ Token Lexer::next() {
     }
     case '=':
       if (after == '=') source_->fail(begin, "\"==\" is no relation; write =");
+      if (after == '>') source_->fail(begin, "\"=>\" is no relation; write >=");
+      if (after == '<') source_->fail(begin, "\"=<\" is no relation; write <=");
       return token(equal, 1);
+    case '!':
+      if (after == '=')
+        source_->fail(begin, "\"!=\" is no relation; write " + std::string(instead_of_unequal));
+      break;
     default:
       break;
   }

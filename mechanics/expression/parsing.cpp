@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "mechanics/expression/parsing_numbers.hpp"
-#include "mechanics/expression/unknown_function.hpp"
 
 namespace mechanics::expression {
 
@@ -33,22 +32,6 @@ Token Parsing::expect(Kind kind, const char* wanted) {
   return token;
 }
 
-void Parsing::unexpected(const char* wanted) const {
-  if (token_.kind == Kind::more || token_.kind == Kind::less) {
-    const std::string sign(token_.text);
-    source_->fail(token_.offset, "\"" + sign + "\" is no relation; write " + sign + "=");
-  }
-  const std::string got = token_.kind == Kind::end ? "the end" : quoted(token_.text);
-  const bool is_factor =
-      token_.kind == Kind::name || token_.kind == Kind::number || token_.kind == Kind::open;
-  const char* hint = "";
-  if (std::string_view(wanted).starts_with("an operator")) {
-    if (is_factor) hint = ": a product is written with *, and numbers carry no units";
-    if (token_.kind == Kind::comma) hint = ": a decimal is written with a point, 0.5";
-  }
-  source_->fail(token_.offset, "got " + got + "; expected " + wanted + hint);
-}
-
 Instruction& Parsing::emit(Step step, std::size_t offset, std::uint32_t operand) {
   Instruction& instruction = steps_.emplace_back();
   instruction.step = step;
@@ -66,14 +49,25 @@ void Parsing::apply(Operation operation, std::size_t offset) {
 Code Parsing::take() { return {source_, std::move(steps_), slots_}; }
 
 Code Parsing::expression() {
-  sum();
-  if (token_.kind == Kind::at_least || token_.kind == Kind::at_most || token_.kind == Kind::equal)
-    source_->fail(token_.offset, "a relation stands here; only a constraint has one");
-  if (token_.kind != Kind::end) unexpected("an operator or the end");
+  mistakes_.gather([&] {
+    sum();
+    if (token_.kind == Kind::at_least || token_.kind == Kind::at_most || token_.kind == Kind::equal)
+      source_->fail(token_.offset, "a relation stands here; only a constraint has one");
+    if (token_.kind != Kind::end) unexpected("an operator or the end");
+  });
+  mistakes_.tell();
   return take();
 }
 
 Relation Parsing::relation() {
+  bool two_sided = false;
+  mistakes_.gather([&] { two_sided = both_sides(); });
+  mistakes_.tell();
+  return {take(), two_sided};
+}
+
+/// f of the relation; whether it is two-sided.
+bool Parsing::both_sides() {
   sum();
   const Token sign = token_;
   if (sign.kind == Kind::end)
@@ -88,7 +82,7 @@ Relation Parsing::relation() {
   if (token_.kind != Kind::end) unexpected("an operator or the end");
   if (sign.kind == Kind::at_most) std::rotate(steps_.begin(), steps_.begin() + left_end, steps_.end());
   apply(Operation::subtract, sign.offset);
-  return {take(), sign.kind == Kind::equal};
+  return sign.kind == Kind::equal;
 }
 
 void Parsing::sum() {
@@ -143,7 +137,7 @@ void Parsing::power() {
 void Parsing::postfix() {
   primary();
   for (; token_.kind == Kind::prime; advance()) {
-    if (vocabulary_ != Vocabulary::system)
+    if (vocabulary_ != Vocabulary::system && !is_guessed_)
       source_->fail(token_.offset, "a time derivative has no meaning here; what stands here does not move");
     emit(Step::differentiate, token_.offset);
   }
@@ -185,13 +179,13 @@ void Parsing::named(const Token& name) {
   if (name.text == "in") source_->fail(name.offset, "\"in\" belongs to sum(i in a..b, …); it is no value");
   if (name.text == "t") {
     if (vocabulary_ != Vocabulary::system && vocabulary_ != Vocabulary::state)
-      source_->fail(name.offset, "\"t\" may not be used here; this must not depend on time");
+      guess([&] { source_->fail(name.offset, "\"t\" may not be used here; this must not depend on time"); });
     return void(emit(Step::time, name.offset));
   }
   if (const auto known = slot(name.text)) return void(emit(Step::index, name.offset, *known));
   const Name* meaning = names_->find(name.text);
-  if (meaning == nullptr) unknown(name);
-  refuse_if_out_of_vocabulary(name, meaning->kind);
+  if (meaning == nullptr) return unknown(name);
+  guess([&] { refuse_if_out_of_vocabulary(name, meaning->kind); });
   if (meaning->kind == Name::Kind::parameter) {
     if (token_.kind == Kind::open_index)
       source_->fail(token_.offset,
@@ -199,35 +193,6 @@ void Parsing::named(const Token& name) {
     return void(emit(Step::parameter, name.offset, meaning->index));
   }
   member(*meaning, name);
-}
-
-void Parsing::refuse_if_out_of_vocabulary(const Token& name, Name::Kind kind) const {
-  if (kind == Name::Kind::parameter) return;
-  const std::string it = quoted(name.text) + " is " + std::string(article_and_kind(kind));
-  if (kind == Name::Kind::constraint) source_->fail(name.offset, it + "; a constraint is no value");
-  if (vocabulary_ == Vocabulary::parameters)
-    source_->fail(name.offset, it + "; a parameter may use numbers and other parameters only");
-  if (vocabulary_ == Vocabulary::index)
-    source_->fail(name.offset, it + "; an index may use numbers, parameters and indices only");
-  if (vocabulary_ != Vocabulary::system)
-    source_->fail(name.offset, it + "; a value of the state may use numbers, parameters and t only");
-}
-
-void Parsing::unknown(const Token& name) const {
-  using enum Name::Kind;
-  if (token_.kind == Kind::open)
-    source_->fail(name.offset, quoted(name.text) + " is no function; " + instead_of_function(name.text));
-  std::vector<std::string> indices;
-  for (const auto& [index, place] : scope_)
-    if (!index.empty()) indices.push_back(index);
-  std::vector<Name::Kind> kinds{parameter};
-  if (vocabulary_ == Vocabulary::system) kinds = {coordinate, parameter, definition};
-  const std::string is_unknown = quoted(name.text) + " is unknown";
-  if (name.text == "e") source_->fail(name.offset, is_unknown + "; write exp(x) for e^x");
-  for (const std::string& other : names_behind_velocity(name.text))
-    if (const Name* meaning = names_->find(other); meaning != nullptr && meaning->kind == coordinate)
-      source_->fail(name.offset, is_unknown + "; the velocity of " + other + " is " + other + "'");
-  source_->fail(name.offset, is_unknown + names_->suggestion(name.text, kinds, indices, true));
 }
 
 void Parsing::call(Operation function, const Token& name) {

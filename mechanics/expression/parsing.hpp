@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "convex/mistakes.hpp"
 #include "mechanics/expression/construction.hpp"
 #include "mechanics/expression/lexer.hpp"
 #include "mechanics/expression/parser.hpp"
@@ -32,6 +34,7 @@ class Parsing {
   Instruction& emit(Step step, std::size_t offset, std::uint32_t operand = 0);
   void apply(Operation operation, std::size_t offset);
 
+  bool both_sides();
   void sum();
   void product();
   void unary();
@@ -68,10 +71,18 @@ class Parsing {
   void member(const Name& meaning, const Token& name);
   void number_in(Vocabulary vocabulary, void (Parsing::*part)());
   void refuse_if_out_of_vocabulary(const Token& name, Name::Kind kind) const;
-  [[noreturn]] void unknown(const Token& name) const;
+  [[noreturn]] void refuse_unknown(const Token& name) const;
+  void unknown(const Token& name);
+  void arguments_of_unknown();
+  /// What `check` refuses of a name is told with what else is wrong in the text.
+  template <class Check>
+  void guess(const Check& check) {
+    is_guessed_ = !mistakes_.gather(check) || is_guessed_;
+  }
   std::optional<std::uint32_t> slot(std::string_view index) const;
   std::uint32_t declare_index(const Token& name);
 
+  Key named_key(bool declares_ranges);
   KeyIndex key_index(bool declares_ranges);
   Code number_of_key();
   Code take();
@@ -87,6 +98,9 @@ class Parsing {
   int component_ = 0;       // within a vector: which of its components is written out; 0: numbers
   bool is_vector_ = false;  // what was read last
   std::vector<Instruction> steps_;
+  convex::Mistakes mistakes_;
+  std::set<std::string_view> unknown_;  // names told as unknown
+  bool is_guessed_ = false;             // a name is not what it has to be: what hangs on it is not judged
 };
 
 }  // namespace mechanics::expression

@@ -24,6 +24,13 @@ KeyName Parsing::key_name() {
 
 Key Parsing::key(bool declares_ranges) {
   Key key;
+  mistakes_.gather([&] { key = named_key(declares_ranges); });
+  mistakes_.tell();
+  return key;
+}
+
+Key Parsing::named_key(bool declares_ranges) {
+  Key key;
   key.source = source_;
   key.name = std::string(expect(Kind::name, "a name").text);
   if (accept(Kind::open_index)) {

@@ -16,7 +16,7 @@ void Parsing::back_to(const Mark& mark) {
 }
 
 void Parsing::refuse_vectors(bool refused, std::size_t offset, const char* what) const {
-  if (!refused) return;
+  if (!refused || is_guessed_) return;
   const std::string said = what;
   source_->fail(offset,
                 said + (said.find(';') == std::string::npos ? "; a number and a vector are told apart" : ""));
@@ -44,7 +44,7 @@ void Parsing::vector_component(int k) {
   component_ = k;
   sum();
   component_ = outer;
-  if (!is_vector_)
+  if (!is_vector_ && !is_guessed_)
     source_->fail(begin,
                   "a number where a vector stands; give a family of three members, \"r[1..3]\", by its "
                   "name alone, or a list [a, b, c]; the velocity of x is x'");

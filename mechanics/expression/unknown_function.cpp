@@ -49,7 +49,7 @@ constexpr Saying sayings[] = {
 constexpr Saying characters[] = {
     {"≥", ">="},
     {"≤", "<="},
-    {"≠", "two constraints"},
+    {"≠", instead_of_unequal},
     {"·", "*"},
     {"×", "*"},
     {"−", "-"},
