@@ -43,8 +43,9 @@ std::vector<std::string> angles_in_degrees(const LagrangianSystem& system) {
 convex::InvalidInput refused_state(const convex::InvalidInput& error, convex::Place place,
                                    const LagrangianSystem& system) {
   const std::vector<std::string> angles = angles_in_degrees(system);
-  return convex::InvalidInput(error.what() + (angles.empty() ? "" : " (" + angles.front() + ")"),
-                              error.place().value_or(place));
+  return {convex::InvalidInput(error.what() + (angles.empty() ? "" : " (" + angles.front() + ")"),
+                               error.place().value_or(place)),
+          error.others()};
 }
 
 }  // namespace mechanics

@@ -2,14 +2,11 @@
 
 #include <cmath>
 
+#include "convex/mistakes.hpp"
 #include "mechanics/number_text.hpp"
 
 namespace mechanics {
 namespace {
-
-[[noreturn]] void refuse(const Constraint& constraint, const std::string& what) {
-  throw convex::InvalidInput("constraint " + constraint.name + ": " + what, constraint.place);
-}
 
 /// "two-sided, but f", or of what is looked at in its place.
 std::string but(const Constraint& constraint, const std::string& rate) {
@@ -32,6 +29,10 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
   Contacts found;
   found.rates = system.constraint_rates(state);
   const auto& constraints = system.constraints();
+  convex::Mistakes mistakes;
+  const auto refuse = [&](const Constraint& constraint, const std::string& what) {
+    mistakes.add(convex::InvalidInput("constraint " + constraint.name + ": " + what, constraint.place));
+  };
   for (std::size_t k = 0; k < constraints.size(); ++k) {
     const Index a = static_cast<Index>(k);
     const Constraint& constraint = constraints[k];
@@ -43,17 +44,19 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
         refuse(constraint, but(constraint, "f") + number_text(f) +
                                " at the state; move the position so that it holds, or let "
                                "`moreau assemble` find the nearest one");
-      if (!(std::abs(df) <= df_zero))
+      else if (!(std::abs(df) <= df_zero))
         refuse(constraint, but(constraint, "df/dt") + number_text(df) + " at the state" + at_rest(state) +
                                "; choose velocities that keep it, or let "
                                "`moreau assemble` find the nearest ones");
       found.present.push_back(a);
       continue;
     }
-    if (!(f >= -f_zero))
+    if (!(f >= -f_zero)) {
       refuse(constraint, "penetrated, f = " + number_text(f) +
                              " < 0; move the position so that f >= 0, raise contact_tolerance, or let "
                              "`moreau assemble` find the nearest state");
+      continue;
+    }
     if (f > f_zero) continue;
     if (df < -df_zero && impending == Impending::allowed)
       found.closing.push_back(a);
@@ -63,6 +66,7 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
     else if (df <= df_zero)
       found.present.push_back(a);
   }
+  mistakes.tell();
   return found;
 }
 

@@ -20,8 +20,8 @@ struct Contacts {
 /// Whether a state at which an impact is due is refused.
 enum class Impending { refused, allowed };
 
-/// tolerance: one number per constraint. Throws InvalidInput, naming the constraint, its value and what to
-/// do, when one is penetrated (f < 0), when an impact is due (f = 0, df/dt < 0) and that is refused, or when
+/// tolerance: one number per constraint. Throws InvalidInput, naming each such constraint, its value and what
+/// to do, when one is penetrated (f < 0), when an impact is due (f = 0, df/dt < 0) and that is refused, or when
 /// a two-sided one does not hold.
 Contacts contacts(const System&, const State&, const Vector& tolerance,
                   Impending impending = Impending::refused);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cli/problem_file/exact_number.hpp"
-#include "convex/mistakes.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace cli::inline problem_files {
@@ -169,6 +168,16 @@ TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> kn
     if (!meant.empty() && table.find(meant) == nullptr) entry.key = meant;
   }
   return table;
+}
+
+MeantTable::MeantTable(const TomlValue& given, const std::string& where,
+                       std::initializer_list<const char*> known, convex::Mistakes& mistakes)
+    : table_(&given) {
+  if (mistakes.gather([&] { require_known_keys(given, where, known); })) return;
+  meant_ = with_meant_keys(given, known);
+  table_ = &meant_;
+  for (const TomlEntry& entry : meant_.table)
+    is_whole_ = is_whole_ && std::find(known.begin(), known.end(), entry.key) != known.end();
 }
 
 const TomlValue& require_table(const TomlValue& value, const std::string& where) {

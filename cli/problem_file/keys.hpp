@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/problem_file/toml_document.hpp"
+#include "convex/mistakes.hpp"
 
 namespace cli::inline problem_files {
 
@@ -18,6 +19,24 @@ void require_known_keys(const TomlValue& table, const std::string& where,
 /// The table with the keys that an unknown one is a slip of, or another word for, in its place, where they
 /// are missing: what stands behind it can be read, too.
 TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> known);
+
+/// A table whose unknown keys have been added to the mistakes: itself, or with the keys that are meant.
+class MeantTable {
+ public:
+  MeantTable(const TomlValue& given, const std::string& where, std::initializer_list<const char*> known,
+             convex::Mistakes& mistakes);
+  MeantTable(const MeantTable&) = delete;
+  MeantTable& operator=(const MeantTable&) = delete;
+  const TomlValue& table() const { return *table_; }
+  bool are_known() const { return table_ != &meant_; }
+  /// Is what is missing missing, and not under a key of which nothing is known?
+  bool is_whole() const { return is_whole_; }
+
+ private:
+  TomlValue meant_;  // of a table with unknown keys alone: tables may be large
+  const TomlValue* table_;
+  bool is_whole_ = true;
+};
 
 /// The value as a table; otherwise InvalidInput.
 const TomlValue& require_table(const TomlValue& value, const std::string& where);

@@ -1,6 +1,9 @@
 #include "cli/problem_file/numbers.hpp"
 
+#include <set>
+
 #include "cli/problem_file/keys.hpp"
+#include "convex/mistakes.hpp"
 
 namespace cli::inline problem_files {
 
@@ -10,15 +13,32 @@ using convex::Vector;
 
 namespace {
 
-void require_entries(const TomlValue& row, const std::string& where, Index found, Index wanted,
-                     const std::string& why) {
-  if (found == wanted) return;
+/// Refuses a row of a wrong length, the first of that length: `told` has those before.
+void require_entries(const TomlValue& row, const std::string& where, Index wanted, const std::string& why,
+                     std::set<Index>& told) {
+  const Index found = entries_of(&row);
+  if (found < 0 || found == wanted || !told.insert(found).second) return;  // of no list that is told
   throw InvalidInput(where + ": " + std::to_string(found) + (found == 1 ? " entry" : " entries") + "; give " +
                          std::to_string(wanted) + ", " + why,
                      row.place);
 }
 
+/// Does the work for each entry of a list; what is wrong with any is told at once.
+template <class Work>
+void for_each_entry(const TomlValue& value, const std::string& where, const Work& work) {
+  const auto& list = require_array(value, where).array;
+  convex::Mistakes mistakes;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    mistakes.gather([&] { work(i, list[i], where + "[" + std::to_string(i) + "]"); });
+  mistakes.tell();
+}
+
 }  // namespace
+
+Index entries_of(const TomlValue* list) {
+  const bool is_list = list != nullptr && list->kind == TomlValue::Kind::array;
+  return is_list ? static_cast<Index>(list->array.size()) : -1;
+}
 
 const TomlValue& require_array(const TomlValue& value, const std::string& where) {
   if (value.kind != TomlValue::Kind::array)
@@ -27,23 +47,28 @@ const TomlValue& require_array(const TomlValue& value, const std::string& where)
 }
 
 Vector read_vector(const TomlValue& value, const std::string& where) {
-  const auto& list = require_array(value, where).array;
-  Vector x(static_cast<Index>(list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i)
-    x[static_cast<Index>(i)] = require_number(list[i], where + "[" + std::to_string(i) + "]");
+  Vector x(entries_of(&require_array(value, where)));
+  for_each_entry(value, where, [&](std::size_t i, const TomlValue& entry, const std::string& name) {
+    x[static_cast<Index>(i)] = require_number(entry, name);
+  });
   return x;
 }
 
 convex::RowMatrix read_matrix(const TomlValue& value, const std::string& where, Index columns,
                               const std::string& why) {
   const auto& rows = require_array(value, where).array;
+  if (columns < 0) columns = rows.empty() ? 0 : std::max<Index>(0, entries_of(&rows.front()));
   convex::RowMatrix M(static_cast<Index>(rows.size()), columns);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string row = where + "[" + std::to_string(i) + "]";
-    const Vector x = read_vector(rows[i], row);
-    require_entries(rows[i], row, x.size(), columns, why);
-    M.row(static_cast<Index>(i)) = x;
-  }
+  std::set<Index> told;
+  for_each_entry(value, where, [&](std::size_t i, const TomlValue& row, const std::string& name) {
+    convex::Mistakes mistakes;
+    mistakes.gather([&] { require_entries(row, name, columns, why, told); });
+    mistakes.gather([&] {
+      const Vector x = read_vector(row, name);
+      if (x.size() == columns) M.row(static_cast<Index>(i)) = x;
+    });
+    mistakes.tell();
+  });
   return M;
 }
 
@@ -58,22 +83,23 @@ convex::Fraction read_exact_number(const TomlValue& value, const std::string& wh
 }
 
 convex::ExactVector read_exact_vector(const TomlValue& value, const std::string& where) {
-  const auto& list = require_array(value, where).array;
   std::vector<convex::Fraction> entries;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    entries.push_back(read_exact_number(list[i], where + "[" + std::to_string(i) + "]"));
+  for_each_entry(value, where, [&](std::size_t, const TomlValue& entry, const std::string& name) {
+    entries.push_back(read_exact_number(entry, name));
+  });
   return convex::exact_vector(entries);
 }
 
 convex::ExactRows read_exact_matrix(const TomlValue& value, const std::string& where, Index columns,
                                     const std::string& why) {
-  const auto& rows = require_array(value, where).array;
   convex::ExactRows M;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string row = where + "[" + std::to_string(i) + "]";
-    M.push_back(read_exact_vector(rows[i], row));
-    require_entries(rows[i], row, M.back().size(), columns, why);
-  }
+  std::set<Index> told;
+  for_each_entry(value, where, [&](std::size_t, const TomlValue& row, const std::string& name) {
+    convex::Mistakes mistakes;
+    mistakes.gather([&] { require_entries(row, name, columns, why, told); });
+    mistakes.gather([&] { M.push_back(read_exact_vector(row, name)); });
+    mistakes.tell();
+  });
   return M;
 }
 

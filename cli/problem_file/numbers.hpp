@@ -11,11 +11,15 @@ namespace cli::inline problem_files {
 /// The value as a list; otherwise InvalidInput.
 const TomlValue& require_array(const TomlValue& value, const std::string& where);
 
-/// A list of numbers, each rounded to the nearest double. Throws InvalidInput naming the entry.
+/// How many entries a list has; -1 where it is none.
+convex::Index entries_of(const TomlValue* list);
+
+/// A list of numbers, each rounded to the nearest double. Throws InvalidInput naming all entries that are
+/// wrong.
 convex::Vector read_vector(const TomlValue& value, const std::string& where);
 
-/// A list of rows of `columns` numbers each. `why` says in a message where that number comes from, such as
-/// "one per coordinate (z has 3)".
+/// A list of rows of `columns` numbers each, of as many as the first has where that is -1. `why` says in a
+/// message where that number comes from, such as "one per coordinate (z has 3)".
 convex::RowMatrix read_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
                               const std::string& why);
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/tables.hpp"
 
@@ -17,7 +18,7 @@ bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>
 
 /// A mass or a moment of inertia: how it stands in T, and how it was written.
 struct Quantity {
-  std::string name, written;
+  std::string name = "1", written;  // of one that is wrong, "1"
   convex::Place place;
 };
 
@@ -29,7 +30,10 @@ Quantity quantity(const TomlValue& value, const std::string& where, const std::s
     require_positive(value, where);
     return {value.text, value.text, value.place};
   }
-  const std::string& text = require_string(value, where);
+  if (!value.is_string())
+    throw InvalidInput(where + ": neither a number nor an expression; give 2.0, or \"rho*V\" in parameters",
+                       value.place);
+  const std::string& text = value.text;
   const auto is_it = [&](const mechanics::NamedText& p) { return p.name.text == text; };
   const bool is_parameter = std::any_of(system.parameters.begin(), system.parameters.end(), is_it);
   if (!is_parameter) system.parameters.push_back({{name, value.place}, {text, value.content}});
@@ -79,30 +83,51 @@ std::string kinetic_energy(const std::string& body, const std::string& mass, con
          turn({"e0", "e1", "e2", "e3"}, {"", " + ", " + ", " + "}) + ")^2";
 }
 
+struct BodyNumbers {
+  Quantity mass, moments[3];
+};
+
+/// The numbers of one body, its parameters added to those of the system.
+BodyNumbers read_numbers(const TomlEntry& entry, const std::string& where, LagrangianText& system,
+                         convex::Mistakes& mistakes) {
+  BodyNumbers numbers;
+  const MeantTable meant(require_table(entry.value, where), where, {"mass", "inertia"}, mistakes);
+  const TomlValue *mass = meant.table().find("mass"), *inertia = meant.table().find("inertia");
+  const auto read = [&](Quantity& to, const TomlValue& value, const char* key, const std::string& name) {
+    return mistakes.gather([&] { to = quantity(value, where + key, entry.key + name, system); });
+  };
+  if (mass != nullptr)
+    read(numbers.mass, *mass, ".mass", "_mass");
+  else if (meant.is_whole())
+    mistakes.add(InvalidInput(where + ".mass: missing; write mass = 2.0", entry.place));
+  if (entries_of(inertia) != 3 && (inertia != nullptr || meant.is_whole()))
+    mistakes.add(InvalidInput(
+        where + ".inertia: not three moments; write inertia = [Ix, Iy, Iz], about the body's own axes",
+        inertia == nullptr ? entry.place : inertia->place));
+  if (entries_of(inertia) != 3) return numbers;
+  bool are_read = true;
+  for (std::size_t k = 0; k < 3; ++k)
+    are_read =
+        read(numbers.moments[k], inertia->array[k], ".inertia", "_I" + std::string(1, "xyz"[k])) && are_read;
+  if (are_read) mistakes.gather([&] { require_triangle(where + ".inertia", numbers.moments, system); });
+  return numbers;
+}
+
 }  // namespace
 
-void add_bodies(const TomlValue& bodies, LagrangianText& system) {
-  for (const TomlEntry& entry : require_table(bodies, "bodies").table) {
+void add_bodies(const TomlValue& bodies, LagrangianText& system, convex::Mistakes& mistakes) {
+  if (!mistakes.gather([&] { require_table(bodies, "bodies"); })) return;
+  for (const TomlEntry& entry : bodies.table) {
     const std::string where = "bodies." + shown(entry.key);
-    const TomlValue& body = require_table(entry.value, where);
-    require_known_keys(body, where, {"mass", "inertia"});
-    if (entry.key.empty() || !std::all_of(entry.key.begin(), entry.key.end(), is_letter_or_digit))
-      throw InvalidInput(where + ": no name; give one of letters, digits and _", entry.place);
-    const TomlValue *mass = body.find("mass"), *inertia = body.find("inertia");
-    if (mass == nullptr) throw InvalidInput(where + ".mass: missing; write mass = 2.0", entry.place);
-    if (inertia == nullptr || inertia->kind != TomlValue::Kind::array || inertia->array.size() != 3)
-      throw InvalidInput(
-          where + ".inertia: not three moments; write inertia = [Ix, Iy, Iz], about the body's own axes",
-          inertia == nullptr ? entry.place : inertia->place);
-    const std::string m = quantity(*mass, where + ".mass", entry.key + "_mass", system).name;
-    Quantity moments[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      moments[k] = quantity(inertia->array[k], where + ".inertia",
-                            entry.key + "_I" + std::string(1, "xyz"[k]), system);
-    require_triangle(where + ".inertia", moments, system);
+    if (entry.key.empty() || !std::all_of(entry.key.begin(), entry.key.end(), is_letter_or_digit)) {
+      mistakes.add(InvalidInput(where + ": no name; give one of letters, digits and _", entry.place));
+      continue;
+    }
+    BodyNumbers numbers;
+    mistakes.gather([&] { numbers = read_numbers(entry, where, system, mistakes); });
     for (const char* suffix : {"_x", "_y", "_z", "_e0", "_e1", "_e2", "_e3"})
       system.coordinates.push_back({entry.key + suffix, entry.place});
-    const std::string kinetic = kinetic_energy(entry.key, m, moments);
+    const std::string kinetic = kinetic_energy(entry.key, numbers.mass.name, numbers.moments);
     if (system.kinetic.text.empty())
       system.kinetic = {kinetic, entry.place};
     else

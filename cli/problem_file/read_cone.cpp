@@ -69,44 +69,59 @@ convex::ExactMetric cone_metric(const TomlValue* value, const std::string& direc
 
 }  // namespace
 
-ConeProblem read_cone(const TomlValue& table, const std::string& directory) {
-  require_known_keys(table, "cone",
-                     {"generators", "lines", "halfspaces", "equations", "z", "metric", "dimension"});
+ConeProblem read_cone(const TomlValue& given, const std::string& directory) {
+  convex::Mistakes mistakes;
+  const MeantTable meant(given, "cone",
+                         {"generators", "lines", "halfspaces", "equations", "z", "metric", "dimension"},
+                         mistakes);
+  const TomlValue& table = meant.table();
   const TomlEntry *of_generators = nullptr, *of_halfspaces = nullptr;
   for (const TomlEntry& entry : table.table) {
     if (entry.key == "generators" || entry.key == "lines") of_generators = &entry;
     if (entry.key == "halfspaces" || entry.key == "equations") of_halfspaces = &entry;
   }
   if (of_generators != nullptr && of_halfspaces != nullptr)
-    throw InvalidInput("cone: both " + of_generators->key + " and " + of_halfspaces->key +
-                           "; a cone is given by generators and lines or by halfspaces and equations",
-                       of_halfspaces->place);
-  if (of_generators == nullptr && of_halfspaces == nullptr)
-    throw InvalidInput("cone: no generators and no halfspaces; give one, as in generators = [[1, 0], [1, 1]]",
-                       table.place);
+    mistakes.add(InvalidInput("cone: both " + of_generators->key + " and " + of_halfspaces->key +
+                                  "; a cone is given by generators and lines or by halfspaces and equations",
+                              of_halfspaces->place));
+  if (of_generators == nullptr && of_halfspaces == nullptr && meant.is_whole())
+    mistakes.add(InvalidInput(
+        "cone: no generators and no halfspaces; give one, as in generators = [[1, 0], [1, 1]]", table.place));
   ConeProblem cone;
   cone.by_halfspaces = of_halfspaces != nullptr;
   const std::string rows = cone.by_halfspaces ? "halfspaces" : "generators";
   const std::string two_way = cone.by_halfspaces ? "equations" : "lines";
-  const Dimension dimension = dimension_of(table, {rows, two_way});
+  Dimension dimension;
+  try {
+    dimension = dimension_of(table, {rows, two_way});
+  } catch (const InvalidInput& error) {
+    if (meant.is_whole()) mistakes.add(error);  // otherwise a vector may stand under the wrong key
+    mistakes.tell();
+  }
   cone.n = dimension.n;
-  if (const TomlValue* stated = table.find("dimension"); stated != nullptr)
-    if (const Index n = stated_dimension(*stated).n; n != cone.n)
+  const auto read = [&](const std::string& key, const auto& work) {
+    if (const TomlValue* value = table.find(key)) mistakes.gather([&] { work(*value); });
+  };
+  read("dimension", [&](const TomlValue& stated) {
+    if (const Index n = stated_dimension(stated).n; n != cone.n)
       throw InvalidInput("dimension: " + std::to_string(n) + "; give " + std::to_string(cone.n) + ", " +
                              dimension.why + ", or leave it out",
-                         stated->place);
-  if (const TomlValue* value = table.find(rows))
-    cone.rows = read_exact_matrix(*value, rows, cone.n, dimension.why);
-  if (const TomlValue* value = table.find(two_way))
-    cone.two_way = read_exact_matrix(*value, two_way, cone.n, dimension.why);
-  if (const TomlValue* z = table.find("z")) {
-    cone.z = read_exact_vector(*z, "z");
-    if (cone.z->size() != cone.n)
-      throw InvalidInput("z: " + std::to_string(cone.z->size()) + " entries; give " + std::to_string(cone.n) +
-                             ", " + dimension.why,
-                         z->place);
-  }
-  cone.W = cone_metric(table.find("metric"), directory, dimension);
+                         stated.place);
+  });
+  read(rows,
+       [&](const TomlValue& value) { cone.rows = read_exact_matrix(value, rows, cone.n, dimension.why); });
+  read(two_way, [&](const TomlValue& value) {
+    cone.two_way = read_exact_matrix(value, two_way, cone.n, dimension.why);
+  });
+  read("z", [&](const TomlValue& z) {
+    if (const Index n = entries_of(&z); n >= 0 && n != cone.n)
+      mistakes.add(InvalidInput(
+          "z: " + std::to_string(n) + " entries; give " + std::to_string(cone.n) + ", " + dimension.why,
+          z.place));
+    cone.z = read_exact_vector(z, "z");
+  });
+  mistakes.gather([&] { cone.W = cone_metric(table.find("metric"), directory, dimension); });
+  mistakes.tell();
   return cone;
 }
 

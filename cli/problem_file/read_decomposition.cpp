@@ -37,26 +37,30 @@ convex::ExactGram exact_metric_of(const TomlValue& value, const convex::Metric& 
 
 }  // namespace
 
-DecompositionProblem read_decomposition(const TomlValue& table, const std::string& directory) {
-  require_known_keys(table, "decomposition", {"z", "f", "metric"});
-  const TomlValue *z = table.find("z"), *f = table.find("f"), *metric = table.find("metric");
-  if (z == nullptr || f == nullptr)
-    throw InvalidInput("decomposition: z and f are needed; give both, z = [3, -1] and f = \"norm1()\"",
-                       table.place);
+DecompositionProblem read_decomposition(const TomlValue& given, const std::string& directory) {
   convex::Mistakes mistakes;
+  const MeantTable meant(given, "decomposition", {"z", "f", "metric"}, mistakes);
+  const TomlValue& table = meant.table();
+  const TomlValue *z = table.find("z"), *f = table.find("f"), *metric = table.find("metric");
+  if ((z == nullptr || f == nullptr) && meant.is_whole())
+    mistakes.add(InvalidInput("decomposition: z and f are needed; give both, z = [3, -1] and f = \"norm1()\"",
+                              table.place));
+  const convex::Index n = entries_of(z);  // known where its numbers are wrong, too
   convex::Vector point;
   convex::Call call;
-  mistakes.gather([&] {
-    point = read_vector(*z, "z");
-    if (point.size() == 0) throw InvalidInput("z: empty; give at least one number", z->place);
-  });
-  mistakes.gather([&] { call = parse_call(require_string(*f, "f"), "f", f->content); });
+  std::optional<convex::Metric> gram_metric;
+  if (z != nullptr)
+    mistakes.gather([&] {
+      point = read_vector(*z, "z");
+      if (n == 0) throw InvalidInput("z: empty; give at least one number", z->place);
+    });
+  if (f != nullptr) mistakes.gather([&] { call = parse_call(require_string(*f, "f"), "f", f->content); });
+  if (metric != nullptr && n > 0)
+    mistakes.gather([&] {
+      gram_metric = read_metric(*metric, {"decomposition", "metric", directory, n, "one per entry of z"});
+    });
   mistakes.tell();
-  const convex::Index n = point.size();
-  convex::Metric W =
-      metric == nullptr
-          ? convex::Metric::identity(n)
-          : read_metric(*metric, {"decomposition", "metric", directory, n, "one per entry of z"});
+  convex::Metric W = gram_metric ? *std::move(gram_metric) : convex::Metric::identity(n);
   // The document outlives no reading: what proofs need of it is copied.
   const std::optional<TomlValue> gram = metric == nullptr ? std::nullopt : std::optional(*metric);
   auto exact = [call, z = *z, gram, W] {

@@ -12,8 +12,9 @@ namespace cli::inline problem_files {
 SystemProblem read_system(const TomlValue& document, const std::string& directory,
                           convex::Mistakes& mistakes);
 
-/// `[bodies]`: rigid bodies in space, by their coordinates, their part of T and |e| = 1.
-void add_bodies(const TomlValue& bodies, mechanics::LagrangianText& system);
+/// `[bodies]`: rigid bodies in space, by their coordinates, their part of T and |e| = 1. What is wrong is
+/// added to the mistakes; the names of the bodies are there all the same.
+void add_bodies(const TomlValue& bodies, mechanics::LagrangianText& system, convex::Mistakes& mistakes);
 
 /// `[projection]`; matrix files are looked for in `directory`.
 ProjectionProblem read_projection(const TomlValue& table, const std::string& directory);

@@ -83,7 +83,7 @@ TEST_CASE("wrong decompositions are refused where they are wrong") {
       {split({{2, "z = 3"}}), "2:5", {"not a list"}},
       {split({{3, "f = 3"}}), "3:5", {"not a string"}},
       {split({{3, "g = \"norm2()\""}}), "3:1", {"unknown key \"g\"", "decomposition"}},
-      {split({{4, "metrics = [[1]]"}}), "4:1", {"did you mean \"metric\""}},
+      {split({{4, "metrics = [[1, 0], [0, 1]]"}}), "4:1", {"did you mean \"metric\""}},
       {split({{4, "metric = [[1, 0]]"}}), "4:10", {"metric: 1 row", "2"}},
       {split({{4, "metric = [[1], [1]]"}}), "4:11", {"metric[0]: 1 entry", "2"}},
       {split({{4, "metric = [[1, 2], [2, 1]]"}}), "4:10", {"metric", "not positive definite"}},

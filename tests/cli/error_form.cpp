@@ -42,7 +42,8 @@ TEST_CASE("whatever bytes an error quotes, its object is JSON and its message on
       point_on_floor({{6, "\"m\\u0000\" = 2"}}),
       point_on_floor({{4, "potential = \"" + std::string(5000, 'q') + "\""}}),
       two_rows({{2, R"(A = { matrix_market = "no\u0000where\n.mtx" })"}}),
-      two_rows({{3, R"(z = ["\u0000", "\n"])"}}),
+      two_rows({{3, R"(z = ["\u0000", 0])"}}),
+      two_rows({{3, R"(z = [0, "\n"])"}}),
       "title = \"\xff\"\n",
       "\xc3\x28 = 1\n",
   };

@@ -94,6 +94,88 @@ TEST_CASE("a slip in a key hides nothing of what stands in the file beside it") 
              {wrong_floor, "14:10: unknown key \"betwen\" in [system.looseness.play]; "});
 }
 
+TEST_CASE("mistakes within one expression are told at once, a name that is unknown in it once") {
+  const std::string y = "4:15: potential: \"yy\" is unknown; did you mean \"y\"?";
+  check_told(point_on_floor({{4, "potential = \"(yy*xx + sinn(gg*yy))*yy\""}}),
+             {y, "4:18: potential: \"xx\" is unknown; ", "4:23: potential: \"sinn\" is no function; ",
+              "4:28: potential: \"gg\" is unknown; "});
+  check_told(point_on_floor({{4, "potential = \"(yy + y y\""}}), {y, "4:22: potential: got \"y\"; "});
+  check_told(point_on_floor({{6, "m = \"x' + t + k\""}}),
+             {"6:6: parameter m: \"x\" is a coordinate; ", "6:11: parameter m: \"t\" may not be used here; ",
+              "6:15: parameter m: \"k\" is unknown; "});
+  check_told(point_on_floor({{9, "floor = \"yy >= hh\""}, {11, "position = { x = \"a + b\", y = 0 }"}}),
+             {"9:10: constraint floor: ", "9:16: constraint floor: ", "11:19: position of x: ",
+              "11:23: position of x: "});
+  check_told(point_on_floor({{2, R"(coordinates = ["x", "y", "r[1..N, 1..M]"])"}}),
+             {"2:32: coordinates: \"N\"", "2:38: coordinates: \"M\""});
+}
+
+TEST_CASE("what hangs on an unknown name is not told as another mistake") {
+  const auto with_r = [](const std::string& potential) {
+    return point_on_floor(
+        {{2, R"(coordinates = ["x", "y", "r[1..3]"])"}, {4, "potential = \"" + potential + "\""}});
+  };
+  check_told(with_r("dot(uu, r) + norm(2*vv)"), {"4:18: potential: \"uu\"", "4:34: potential: \"vv\""});
+  check_told(with_r("dot(uu*r, r) + uu[k]*r[1]"), {"4:18: potential: \"uu\"", "4:32: potential: \"k\""});
+  check_told(with_r("crosss(r, r)[1] + yy"), {"4:14: potential: \"crosss\"", "4:32: potential: \"yy\""});
+  check_told(with_r("summ(i in 1..3, r[i]) + iff(x >= 0, vv, 1)"),
+             {"4:14: potential: \"summ\"", "4:38: potential: \"iff\"", "4:50: potential: \"vv\""});
+}
+
+TEST_CASE("mistakes of numbers are told at once: of [projection], [decomposition] and [cone]") {
+  check_told(
+      "[projection]\nA = [[2, 0], [\"a\", 1]]\nforce = 3\nz = [0, true]\nU = [[0, 1], [1]]\ns = [\"b\"]\n"
+      "two_sided = [-1, 2, \"c\"]\n",
+      {"2:15: A[1][0]: ", "3:1: unknown key \"force\"", "4:9: z[1]: ", "5:14: U[1]: 1 entry; ", "6:5: s: 1 ",
+       "6:6: s[0]: ", "7:14: two_sided: -1 ", "7:18: two_sided: 2 ", "7:21: two_sided: c "});
+  check_told("[projection]\nA = [[2, \"a\"], [0, 1]]\nz = 3\nU = [[0, 1], [1]]\ns = [0, 1, 2]\n",
+             {"2:10: A[0][1]: ", "3:5: z: not a list; ", "4:14: U[1]: 1 entry; ", "5:5: s: 3 entries; "});
+  check_told("[projection]\nA = [[2, 0], [0, 1]]\nforce = [1, 2]\ns = [true]\n",
+             {"3:1: unknown key \"force\"", "4:6: s[0]: "});
+  check_told("[decomposition]\nz = [1, \"a\", \"b\"]\nfun = \"norm1(\"\nmetrics = [[1, \"c\"], [0]]\n",
+             {"2:9: z[1]: ", "2:14: z[2]: ", "3:1: unknown key \"fun\"", "4:1: unknown key \"metrics\"",
+              "4:12: metric[0]: 2 entries; ", "4:16: metric[0][1]: ", "4:22: metric[1]: 1 entry; "});
+  check_told(
+      "[cone]\ngenerators = [[1, \"a\"], [1]]\nlins = [[1]]\nz = [1, 2, true]\nmetric = [[1, 0], [0, "
+      "\"b\"]]\ndimension = 4\n",
+      {"2:19: generators[0][1]: ", "2:25: generators[1]: ", "3:1: unknown key \"lins\"", "3:9: lines[0]: ",
+       "4:5: z: 3 entries; ", "4:12: z[2]: ", "5:23: metric[1][1]: ", "6:13: dimension: 4; "});
+}
+
+TEST_CASE("rows of one wrong length are one mistake") {
+  check_told("[projection]\nA = [[2], [0, 1, 1], [3]]\nz = [0, 1, 2]\n", {"2:6: A[0]: 1 entry; give 3"});
+  check_told("[projection]\nA = [[2], [0, 1], [3]]\nz = [0, 1, 2]\n",
+             {"2:6: A[0]: 1 entry; give 3", "2:11: A[1]: 2 entries; give 3"});
+}
+
+TEST_CASE("a wrong value of a parameter, a body or a looseness hides nothing behind it") {
+  check_told(point_on_floor({{4, "potential = \"m*g*yy\""},
+                             {6, "m = true"},
+                             {9,
+                              "floor = [1]\n[system.forces]\nx = false\n[bodies.b]\nmas = 2\n"
+                              "inertia = [-1, \"2*\", true]\n[bodies.c]\nmass = -1\ninertia = 3"}}),
+             {"4:18: potential: \"yy\" is unknown; did you mean \"y\"?",
+              "6:5: system.parameters.m: ", "9:9: system.constraints.floor: ", "11:5: system.forces.x: ",
+              "13:1: unknown key \"mas\" in [bodies.b]; ", "14:12: bodies.b.inertia: -1 is not positive",
+              "14:19: parameter b_Iy: ", "14:22: bodies.b.inertia: neither a number nor an expression; ",
+              "16:8: bodies.c.mass: -1 is not positive; ", "17:11: bodies.c.inertia: not three moments; "});
+  check_told(point_on_floor({{3, "kinetic = [1]"},
+                             {13,
+                              "[system.looseness]\na = { between = [\"x\", \"yy\"], gap = \"gg\" }\n"
+                              "b = { between = [\"x\", true], gap = -1, restitution = 3 }\nc = 3"}}),
+             {"3:11: system.kinetic: ", "14:24: constraint a_lower: \"yy\" is unknown; ",
+              "14:37: constraint a_lower: \"gg\" is unknown; ",
+              "15:23: system.looseness.b.between: ", "15:36: system.looseness.b.gap: -1 is negative; ",
+              "15:54: system.looseness.b.restitution: ", "16:5: system.looseness.c: not a table; "});
+}
+
+TEST_CASE("all constraints that do not hold at a state are told at once") {
+  check_told(point_on_floor({{9, "floor = \"y >= 1\"\nrod = \"x = 2\"\nwall = \"x >= 0\"\nsun = \"y <= 9\""},
+                             {12, "velocity = { x = -3 }"}}),
+             {"9:1: constraint floor: penetrated, f = -1 < 0; ",
+              "10:1: constraint rod: two-sided, but f = -2 ", "11:1: constraint wall: an impact is due, "});
+}
+
 TEST_CASE("a place behind an escape or a continued line is that in the file") {
   check_told(point_on_floor({{4, R"x(potential = "m*g\u002ay\t+ sinn(y)")x"}}), {"4:28: potential: "});
   check_told(point_on_floor({{4, "potential = \"\"\"m*g*y \\\n   + \\\n\n  sinn(y)\"\"\""}}),
