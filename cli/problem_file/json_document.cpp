@@ -1,5 +1,7 @@
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
+#include <utility>
 
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/keys.hpp"
@@ -29,7 +31,8 @@ class JsonReader {
   [[noreturn]] void fail(const std::string& what) const {
     throw InvalidInput("not a JSON file: " + what + "; see docs/problem-files.md for the form", place());
   }
-  Place place() const { return {line_, static_cast<int>(at_ - line_start_) + 1}; }
+  /// Columns count characters, not bytes.
+  Place place() const { return {line_, static_cast<int>(at_ - line_start_ - behind_first_) + 1}; }
   char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   void skip_space() {
     for (; at_ < text_.size(); ++at_) {
@@ -37,6 +40,7 @@ class JsonReader {
       if (c == '\n') {
         ++line_;
         line_start_ = at_ + 1;
+        behind_first_ = 0;
       } else if (c != ' ' && c != '\t' && c != '\r') {
         return;
       }
@@ -63,8 +67,7 @@ class JsonReader {
         return found;
       case '"':
         found.kind = Kind::string;
-        ++found.content.column;
-        found.text = string();
+        std::tie(found.text, found.content) = string();
         return found;
       default:
         break;
@@ -100,7 +103,7 @@ class JsonReader {
       skip_space();
       const Place where = place();
       if (peek() != '"') fail("expected a key in quotation marks");
-      std::string key = string();
+      std::string key = string().first;
       if (to.find(key) != nullptr)
         throw InvalidInput("the key \"" + shown(key) + "\" stands here twice; keep one", where);
       expect(':');
@@ -186,24 +189,31 @@ class JsonReader {
     append(text, code);
   }
 
-  std::string string() {
+  /// A text and where its characters stand: behind each escape it goes on elsewhere.
+  std::pair<std::string, mechanics::TextOrigin> string() {
     std::string text;
-    for (++at_; at_ < text_.size() && text_[at_] != '"';) {
+    ++at_;
+    mechanics::TextOrigin origin(place());
+    while (at_ < text_.size() && text_[at_] != '"') {
       const char c = text_[at_];
       if (static_cast<unsigned char>(c) < 0x20U) fail("a text goes over its line");
       ++at_;
-      if (c == '\\')
+      if (c == '\\') {
         escape(text);
-      else
+        origin.jumps.push_back({text.size(), place()});
+      } else {
         text += c;
+        if ((static_cast<unsigned char>(c) & 0xC0U) == 0x80U) ++behind_first_;
+      }
     }
     if (at_ == text_.size()) fail("a text without end");
     ++at_;
-    return text;
+    return {text, origin};
   }
 
   const std::string& text_;
   std::size_t at_ = 0, line_start_ = 0;
+  std::size_t behind_first_ = 0;  ///< bytes of this line that continue a character
   int line_ = 1;
   std::string key_;  ///< the last one read
 };

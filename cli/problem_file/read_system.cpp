@@ -156,8 +156,9 @@ Play read_play(const TomlEntry& entry, const std::string& where, const MeantTabl
   Play play;
   const TomlValue *between = element.table().find("between"), *gap = element.table().find("gap");
   if (entries_of(between) == 2)
-    for (auto [to, k] : {std::pair(&play.a, 0U), std::pair(&play.b, 1U)})
-      mistakes.gather([&] { *to = expression(between->array[k], where + ".between"); });
+    for (const std::size_t k : {0U, 1U})
+      mistakes.gather(
+          [&] { (k == 0 ? play.a : play.b) = expression(between->array[k], where + ".between"); });
   else if (between != nullptr || element.is_whole())
     mistakes.add(InvalidInput(where + ".between: not two expressions; write between = [\"a\", \"i*b\"]",
                               between == nullptr ? entry.place : between->place));

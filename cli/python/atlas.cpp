@@ -30,7 +30,8 @@ void add_atlas(py::module_& module) {
   module.def("atlas", [](const Document& document, const py::dict& given) {
     const cli::AtlasOptions options = atlas_options(given);
     const py::gil_scoped_release released;
-    return cli::atlas_of_problem(document.problem, document.name, options).text;
+    return told_by_keys(document.dict,
+                        [&] { return cli::atlas_of_problem(document.problem, document.name, options).text; });
   });
 }
 

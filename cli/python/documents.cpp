@@ -42,7 +42,8 @@ py::tuple answer_of(const Document& document, const py::dict& given, bool json) 
   cli::Answer answer;
   {
     const py::gil_scoped_release released;
-    answer = cli::solve_problem(document.problem, document.name, options);
+    answer = told_by_keys(document.dict,
+                          [&] { return cli::solve_problem(document.problem, document.name, options); });
   }
   return py::make_tuple(answer.text, answer.warnings);
 }
@@ -52,7 +53,7 @@ void draw(const Document& document, const std::string& file, const py::dict& giv
   options.plot = file;
   const py::gil_scoped_release released;
   cli::require_drawable(file);
-  cli::solve_problem(document.problem, document.name, options);
+  told_by_keys(document.dict, [&] { cli::solve_problem(document.problem, document.name, options); });
 }
 
 /// A problem of numbers as the [projection] of a file.
@@ -73,14 +74,42 @@ auto read_named(const std::string& file) {
   }
 }
 
+bool is_behind(convex::Place one, convex::Place other) {
+  return std::pair(one.line, one.column) > std::pair(other.line, other.column);
+}
+
+/// The keys of what stands at a place, "state.position.x", "projection.A[1][0]"; "" of the whole.
+std::string key_at(const cli::TomlValue& value, convex::Place at) {
+  const cli::TomlEntry* entry = nullptr;
+  for (const cli::TomlEntry& one : value.table)
+    if (!is_behind(one.place, at)) entry = &one;
+  if (entry != nullptr) {
+    const std::string within = key_at(entry->value, at);
+    return entry->key + (within.empty() || within[0] == '[' ? "" : ".") + within;
+  }
+  std::size_t behind = 0;
+  while (behind < value.array.size() && !is_behind(value.array[behind].place, at)) ++behind;
+  if (behind == 0) return "";
+  const std::string within = key_at(value.array[behind - 1], at);
+  return "[" + std::to_string(behind - 1) + "]" + (within.empty() || within[0] == '[' ? "" : ".") + within;
+}
+
 }  // namespace
+
+InvalidDict::InvalidDict(const InvalidInput& error, const cli::TomlValue& dict) : InvalidInput(error) {
+  const auto add = [&](const InvalidInput& one) {
+    keys.push_back(one.place() ? key_at(dict, *one.place()) : "");
+  };
+  add(error);
+  for (const InvalidInput& other : error.others()) add(other);
+}
 
 Document read_document(const std::string& source, bool is_text, const std::vector<std::string>& settings,
                        const std::string& name) {
-  const std::string file = is_text ? name : source;
-  return {
-      cli::read_problem_document(is_text ? cli::parse_json(source) : read_named(source), file, {settings}),
-      file};
+  if (!is_text) return {cli::read_problem_document(read_named(source), source, {settings}), source};
+  const auto dict = std::make_shared<const cli::TomlValue>(cli::parse_json(source));
+  return {told_by_keys(dict, [&] { return cli::read_problem_document(*dict, name, {settings}); }), name,
+          dict};
 }
 
 void add_documents(py::module_& module) {

@@ -33,24 +33,29 @@ struct FollowedSystem {
   }
 };
 
-std::shared_ptr<FollowedSystem> begin(const Document& document, const py::dict& given) {
-  const cli::Problem& problem = document.problem;
-  const auto* text = std::get_if<cli::SystemProblem>(&problem.content);
-  if (text == nullptr) throw InvalidInput("nothing here moves; Motion takes a problem with [system]");
-  cli::MotionChoice choice;
-  take(choice.method, given, "method");
-  take_positive(choice.tolerance, given, "tolerance");
-  take(choice.step_limit, given, "step_limit");
-  const py::gil_scoped_release released;
+std::shared_ptr<FollowedSystem> followed_system(const cli::Problem& problem,
+                                                const cli::MotionChoice& choice) {
+  const auto& text = std::get<cli::SystemProblem>(problem.content);
   std::shared_ptr<const mechanics::LagrangianSystem> system =
-      mechanics::lagrangian_system(text->system, text->state);
-  const mechanics::State state = system->state(text->state);
+      mechanics::lagrangian_system(text.system, text.state);
+  const mechanics::State state = system->state(text.state);
   std::vector<std::string> constraints = cli::constraint_names(*system);
   mechanics::Motion motion(*system, state, cli::motion_options(problem, *system, choice));
   std::optional<double> until;
   if (problem.simulate.until) until = cli::end_of_motion(problem, *system, std::nullopt);
   return std::make_shared<FollowedSystem>(
       FollowedSystem{std::move(system), std::move(constraints), std::move(motion), until});
+}
+
+std::shared_ptr<FollowedSystem> begin(const Document& document, const py::dict& given) {
+  if (!std::holds_alternative<cli::SystemProblem>(document.problem.content))
+    throw InvalidInput("nothing here moves; Motion takes a problem with [system]");
+  cli::MotionChoice choice;
+  take(choice.method, given, "method");
+  take_positive(choice.tolerance, given, "tolerance");
+  take(choice.step_limit, given, "step_limit");
+  const py::gil_scoped_release released;
+  return told_by_keys(document.dict, [&] { return followed_system(document.problem, choice); });
 }
 
 py::list events_of(const FollowedSystem& followed) {

@@ -13,7 +13,7 @@ namespace {
 /// The lines on standard error behind "moreau: FILE:", of a file that is refused.
 std::vector<std::string> told(const std::string& text) {
   const Folder folder;
-  const std::string file = folder.write("a.toml", text);
+  const std::string file = folder.write(text.starts_with("{") ? "a.json" : "a.toml", text);
   const Outcome outcome = run({"solve", file});
   CAPTURE(outcome.err);
   CHECK(outcome.code == 2);
@@ -182,6 +182,17 @@ TEST_CASE("a place behind an escape or a continued line is that in the file") {
              {"7:3: potential: "});
   check_told(point_on_floor({{4, "potential = \"\"\"\n\\\n m*g*y +\n sinn(y)\"\"\""}}), {"7:2: potential: "});
   check_told(point_on_floor({{4, "potential = 'm*g*y + sinn(y)'"}}), {"4:22: potential: "});
+}
+
+TEST_CASE("a place behind an escape of JSON is that in the file, and columns count characters") {
+  const auto of_kinetic = [](const std::string& kinetic) {
+    return "{\"title\": \"\u00e9\", \"system\": {\"coordinates\": [\"x\"], \"kinetic\": \"" + kinetic +
+           "\"},\n\"state\": {\"position\": {\"x\": 0, \"y\": 0}}}";
+  };
+  const std::string no_y = "2:32: position: \"y\" is no coordinate; ";
+  check_told(of_kinetic("x'^2 + yy"), {"1:68: kinetic: \"yy\" is unknown; ", no_y});
+  check_told(of_kinetic("x\\u0027^2 +\\tyy\\u002azz"),
+             {"1:74: kinetic: \"yy\" is unknown; ", "1:82: kinetic: \"zz\" is unknown; ", no_y});
 }
 
 TEST_CASE("a backslash in a literal string is no escape, whatever the line breaks of the file are") {

@@ -19,6 +19,7 @@ __version__: str
 class InvalidInput(ValueError):
     line: int | None
     column: int | None
+    key: str | None
     others: list[InvalidInput]
 
 class Metric:
