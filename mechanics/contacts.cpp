@@ -17,6 +17,35 @@ std::string but(const Constraint& constraint, const std::string& rate) {
 /// Velocities that are left out of a file are 0, which may be what is wrong.
 const char* at_rest(const State& state) { return state.v.isZero(0) ? " with all velocities 0" : ""; }
 
+/// Of each constraint, whether its gradient is 0 at the state: df/dt is then the same for all velocities.
+std::vector<bool> have_no_gradient(const System& system, const State& state,
+                                   const std::vector<Index>& constraints) {
+  std::vector<bool> found(constraints.size(), false);
+  try {
+    const convex::SparseRows U = system.contact_rows(state, constraints).U;
+    for (std::size_t k = 0; k < constraints.size(); ++k)
+      found[k] = U.row(static_cast<Index>(k)).squaredNorm() == 0;
+  } catch (const convex::InvalidInput&) {
+    // where a second derivative does not exist the gradient is not known here
+  }
+  return found;
+}
+
+/// What is wrong with df/dt of a constraint that holds.
+std::string wrong_rate(const Constraint& constraint, const State& state, double df, bool has_no_gradient) {
+  const std::string rate = number_text(df);
+  if (has_no_gradient)
+    return (constraint.two_sided ? but(constraint, "df/dt") : "f = 0 and df/dt = ") + rate +
+           (constraint.two_sided ? "" : " < 0") +
+           " whatever the velocities, for its gradient is 0 at the state; choose another position or t, or "
+           "change the constraint";
+  if (constraint.two_sided)
+    return but(constraint, "df/dt") + rate + " at the state" + at_rest(state) +
+           "; choose velocities that keep it, or let `moreau assemble` find the nearest ones";
+  return "an impact is due, f = 0 and df/dt = " + rate + " < 0" + at_rest(state) +
+         "; give the velocity after the impact, or let `moreau simulate` handle it";
+}
+
 }  // namespace
 
 Contacts contacts(const System& system, const State& state, const Vector& tolerance, Impending impending) {
@@ -30,6 +59,7 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
   found.rates = system.constraint_rates(state);
   const auto& constraints = system.constraints();
   convex::Mistakes mistakes;
+  std::vector<Index> unkept;
   const auto refuse = [&](const Constraint& constraint, const std::string& what) {
     mistakes.add(convex::InvalidInput("constraint " + constraint.name + ": " + what, constraint.place));
   };
@@ -45,9 +75,7 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
                                " at the state; move the position so that it holds, or let "
                                "`moreau assemble` find the nearest one");
       else if (!(std::abs(df) <= df_zero))
-        refuse(constraint, but(constraint, "df/dt") + number_text(df) + " at the state" + at_rest(state) +
-                               "; choose velocities that keep it, or let "
-                               "`moreau assemble` find the nearest ones");
+        unkept.push_back(a);
       found.present.push_back(a);
       continue;
     }
@@ -61,10 +89,16 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
     if (df < -df_zero && impending == Impending::allowed)
       found.closing.push_back(a);
     else if (df < -df_zero)
-      refuse(constraint, "an impact is due, f = 0 and df/dt = " + number_text(df) + " < 0" + at_rest(state) +
-                             "; give the velocity after the impact, or let `moreau simulate` handle it");
+      unkept.push_back(a);
     else if (df <= df_zero)
       found.present.push_back(a);
+  }
+  if (!unkept.empty()) {
+    const std::vector<bool> are_flat = have_no_gradient(system, state, unkept);
+    for (std::size_t k = 0; k < unkept.size(); ++k) {
+      const Constraint& constraint = constraints[static_cast<std::size_t>(unkept[k])];
+      refuse(constraint, wrong_rate(constraint, state, found.rates.df[unkept[k]], are_flat[k]));
+    }
   }
   mistakes.tell();
   return found;

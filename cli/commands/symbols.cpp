@@ -26,17 +26,20 @@ Fraction weight(const FunctionOptions& options, Source& source) {
   return symbolic::simplest_fraction(W.diagonal()[0]);
 }
 
-/// What is found without symbols alone is refused beside them.
-void require_applicable_to_symbols(const FunctionOptions& options) {
+/// What is found without symbols alone is refused beside them, where it stands.
+void require_applicable_to_symbols(const FunctionOptions& options, Source& source) {
+  source = {"--at", options.at.value_or("")};
   if (options.at) throw InvalidInput("--symbolic tells the whole function; leave --at out");
   const std::pair<bool, const char*> of_points[] = {{options.certify, "--certify"},
                                                     {options.method.has_value(), "--method"},
                                                     {options.tolerance.has_value(), "--tolerance"},
                                                     {options.limit.has_value(), "--limit"}};
-  for (const auto& [is_given, option] : of_points)
+  for (const auto& [is_given, option] : of_points) {
+    source = {option, ""};
     if (is_given)
       throw InvalidInput(std::string(option) +
                          " goes with a point; with --symbolic formulas are exact or by rules, leave it out");
+  }
 }
 
 /// "prox_f(z)"; of a step "prox_(2 f)(z)".
@@ -50,8 +53,7 @@ std::string name_of_prox(const std::optional<Fraction>& step, bool latex) {
 Exit tell(const FunctionOptions& options, bool is_prox, const std::optional<Fraction>& step) {
   Source source;
   return answered(options, source, [&] {
-    source = {"f", options.expression};
-    require_applicable_to_symbols(options);
+    require_applicable_to_symbols(options, source);
     const Fraction w = weight(options, source);
     source = {"f", options.expression};
     const convex::Call call = parse_call(options.expression, "f");

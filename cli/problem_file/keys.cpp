@@ -115,6 +115,23 @@ std::string key_of_word(const std::string& word, const std::vector<std::string>&
   return "";
 }
 
+/// The key of another table that an unknown one is a slip of, or another word for.
+const OtherWord* nearest_home(const std::string& unknown) {
+  std::vector<std::string> words;
+  for (const OtherWord& home : homes) words.emplace_back(home.word);
+  std::string meant = key_of_word(unknown, words);
+  if (meant.empty()) meant = convex::nearest_name(unknown, words);
+  for (const OtherWord& home : homes)
+    if (meant == home.word) return &home;
+  return nullptr;
+}
+
+/// "[system.forces]", "[state]".
+std::string table_of(const OtherWord& home) {
+  const std::string outer = home.key;
+  return "[" + outer + (outer.empty() ? "" : ".") + home.word + "]";
+}
+
 std::string advice_on_key(const std::string& unknown, bool is_table, const std::string& where,
                           const std::vector<std::string>& known) {
   const bool is_of_system =
@@ -130,8 +147,14 @@ std::string advice_on_key(const std::string& unknown, bool is_table, const std::
     if (is_of_system && unknown == other.word) return other.key;
   if (const std::string key = key_of_word(unknown, known); !key.empty())
     return "did you mean \"" + key + "\"?";
-  if (where == "state" && !is_table && convex::nearest_name(unknown, known).empty())
+  if (!convex::nearest_name(unknown, known).empty()) return convex::suggestion(unknown, known);
+  if (where == "state" && !is_table)
     return "a coordinate's value stands in position = { " + shown(unknown) + " = … } or velocity";
+  if (const OtherWord* home = is_of_system ? nearest_home(unknown) : nullptr; home != nullptr) {
+    const bool is_key = !is_table && *home->key != '\0';
+    return "did you mean " +
+           (is_key ? "\"" + std::string(home->word) + "\" below [" + home->key + "]" : table_of(*home)) + "?";
+  }
   return convex::suggestion(unknown, known);
 }
 

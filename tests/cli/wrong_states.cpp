@@ -26,6 +26,16 @@ TEST_CASE("a two-sided constraint that does not hold in f or in df/dt is refused
   expect_refusal({constraint("rod = \"x = 0\"", "{ x = 3 }"), "9:1", {"rod", "df/dt = 3", "two-sided"}});
 }
 
+TEST_CASE("a rate that no velocity changes is told as that, and no velocity is advised") {
+  for (const auto& [line, velocity] : {std::pair("rod = \"t^2*(x^2 + 1) = 0\"", "{ }"),
+                                       {"rod = \"x^2 = y^2 + t\"", "{ x = 3 }"},
+                                       {"rod = \"x^2 + 1 >= 1 + t\"", "{ x = 3 }"}})
+    expect_refusal(
+        {constraint(line, velocity), "9:1", {"rod", "whatever the velocities", "change the constraint"}});
+  // Beside such a state a velocity keeps it.
+  expect_refusal({constraint("rod = \"x = t\""), "9:1", {"rod", "df/dt = -1", "choose velocities"}});
+}
+
 TEST_CASE("the member of a family that is at fault is named") {
   const std::string chain =
       "[system]\ncoordinates = [\"x[1..3]\"]\nkinetic = \"sum(i in 1..3, x[i]'^2)\"\n"
