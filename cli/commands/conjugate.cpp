@@ -144,6 +144,14 @@ std::string conjugate_json(const ConjugateQuestion& question, const ConjugateAns
   return json.text();
 }
 
+/// What is wrong with a value that is not known to the accuracy asked for.
+std::string missing_accuracy(const convex::Function& g, const convex::Value& value) {
+  if (std::isfinite(value.error)) return fmt::format("its error may be {:.1e}", value.error);
+  if (std::isfinite(value.value)) return "nothing is known of its error";
+  return std::string(g.facts().finite ? "g is finite here, but it" : "it is infinite, or it") +
+         " or a number on the way is beyond the largest double, 1.8e308; scale f or y";
+}
+
 std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAnswer& answer) {
   const convex::Function& g = answer.g;
   const std::string& domain = answer.domain;
@@ -166,12 +174,11 @@ std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAns
     if (answer.proof)
       text += answer.proof->level == convex::ProofLevel::none
                   ? "NOT proved: " + answer.proof->why_none + ".\n"
+              : std::isinf(answer.value->error)
+                  ? "Proved: it is finite.\n"
                   : fmt::format("Proved: its error is at most {}.\n", error_text(answer.value->error));
     if (answer.status != convex::Status::solved)
-      text +=
-          "NOT known to the accuracy that was asked for: " +
-          (std::isfinite(answer.value->error) ? fmt::format("its error may be {:.1e}.\n", answer.value->error)
-                                              : "nothing is known of its error.\n");
+      text += "NOT known to the accuracy that was asked for: " + missing_accuracy(g, *answer.value) + ".\n";
   }
   return text;
 }

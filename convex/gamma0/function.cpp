@@ -5,6 +5,7 @@
 
 #include "convex/gamma0/node.hpp"
 #include "convex/gamma0/work_limit.hpp"
+#include "convex/infinity.hpp"
 
 namespace convex::inline gamma0 {
 namespace {
@@ -69,7 +70,11 @@ double Function::operator()(const Vector& x) const {
 Value Function::evaluate(const Vector& x) const {
   check(*this, x, "x");
   const WorkLimit question(part_of_a_value_alone);
-  return node_->evaluate(x);
+  const Value found = node_->evaluate(x);
+  if (std::isfinite(found.value)) return found;
+  // A function that is finite everywhere has left the doubles, and so have terms that cancel to nothing.
+  if (std::isnan(found.value)) return {infinity, infinity};
+  return {found.value, node_->facts().finite ? infinity : found.error};
 }
 
 Prox Function::prox(const Vector& z, const Metric& W, const Look& look) const {

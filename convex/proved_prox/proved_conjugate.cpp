@@ -83,12 +83,15 @@ ProvedValue proved_conjugate(const SplitQuestion& question) {
 
 namespace {
 
-/// The value of a program at x, rounded, +inf where it has none; nothing where fractions would take long.
-std::optional<double> quick_value(const ExactProgram& f, const Fractions& x) {
+/// The value of a program at x, rounded, +inf where it has none; nothing where fractions would take long. Its
+/// error is that of a value beyond doubles, +inf, or 0.
+std::optional<Value> quick_value(const ExactProgram& f, const Fractions& x) {
   if (!(pair_operations(f, identity_gram(x.size())) <= quick_part_of_operations * most_word_operations))
     return std::nullopt;
   const ExactValue found = exact_value(f, x);
-  return found.end == ProgramEnd::minimum ? nearest_double(found.value) : INFINITY;
+  if (found.end != ProgramEnd::minimum) return Value{INFINITY, 0};
+  const double nearest = nearest_double(found.value);
+  return Value{nearest, std::isinf(nearest) ? INFINITY : 0};
 }
 
 /// What the terms may round at xi: their numbers are made in doubles, those of a curved function that has one
@@ -138,8 +141,8 @@ Value decided_value(const Function& f, const Metric& W, const Vector& x) {
   if (!program) return held_between(f.conjugate(), f, Metric::identity(x.size()), x, found);
   const auto value = quick_value(*program, fractions(x));
   // A rounding of x or of the numbers is as much outside as a mile.
-  if (!value || (std::isinf(*value) && std::isfinite(found.value))) return found;
-  return {*value, unit_roundoff * (std::isinf(*value) ? 0 : std::abs(*value))};
+  if (!value || (std::isinf(value->value) && std::isfinite(found.value))) return found;
+  return {value->value, std::isinf(value->value) ? value->error : unit_roundoff * std::abs(value->value)};
 }
 
 Value decided_conjugate(const SplitQuestion& written, const Function& g, const Vector& y) {
@@ -153,10 +156,11 @@ Value decided_conjugate(const SplitQuestion& written, const Function& g, const V
   const auto value = quick_value(exact_programs::conjugate(*program), multiply(written.W, written.z)),
              beside = quick_value(*of_roundings, fractions(y));
   if (!value || !beside) return found;
-  if (std::isinf(*value) && std::isinf(*beside))
-    return std::isfinite(found.value) ? found : Value{INFINITY, 0};
-  const double told = std::isfinite(*value) ? *value : *beside;
-  const double other = std::isfinite(*value) && std::isfinite(*beside) ? *beside : found.value;
+  const bool is_finite = std::isfinite(value->value), is_finite_beside = std::isfinite(beside->value);
+  if (!is_finite && (!is_finite_beside || value->error > 0))
+    return std::isfinite(found.value) ? found : *value;
+  const double told = is_finite ? value->value : beside->value;
+  const double other = is_finite && is_finite_beside ? beside->value : found.value;
   return {told, unit_roundoff * std::abs(told) + (std::isfinite(other) ? std::abs(told - other) : 0)};
 }
 

@@ -232,3 +232,33 @@ s = [0.0, 0.0]
     CHECK(outcome.err.find("not positive") == std::string::npos);
   }
 }
+
+TEST_CASE("a value of a conjugate beyond doubles is told as not known, and infinite ones as infinite") {
+  const auto conjugate = [](const std::string& f, const std::string& at, int code) {
+    const Outcome outcome = run({"conjugate", f, "--at", at, "--json"});
+    CAPTURE(f);
+    CHECK(outcome.code == code);
+    return Json::parse(outcome.out);
+  };
+  for (const std::string f :
+       {"power(2)", "power(1.5)", "squared_norm2() + norm2()", "squared_norm2() + norm1()",
+        "elastic_net(1, 1)", "quadratic([[1, 0], [0, 1]])", "entropy()"})
+    for (const std::string at : {"[1e300, 1e300]", "[1e300, -1e300]"}) {
+      const Json told = conjugate(f, at, 3);
+      CHECK(told.at("status") == "inaccurate");
+      CHECK(told.at("value") == "inf");
+      CHECK(told.at("error_bound") == "inf");
+      const Outcome text = run({"conjugate", f, "--at", at});
+      CHECK(text.out.find("beyond the largest double") != std::string::npos);
+      CHECK(text.out.find("nan") == std::string::npos);
+    }
+  for (const std::string f : {"norm1()", "norm2()", "huber(1)", "max()", "logistic()"}) {
+    const Json told = conjugate(f, "[1e300, 1e300]", 0);
+    CHECK(told.at("value") == "inf");
+    CHECK(told.at("error_bound") == 0);
+  }
+  // In fractions it is known.
+  const Outcome exact = run({"conjugate", "power(2)", "--at", "[1e300, 0]", "--method", "exact"});
+  CHECK(exact.out.find("exactly 25" + std::string(598, '0') + "\nProved: it is finite.") !=
+        std::string::npos);
+}
