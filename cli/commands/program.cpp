@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -73,6 +74,28 @@ std::string help_on(const CLI::App& app) {
   return "see `moreau " + (called.empty() ? "" : called.front()->get_name() + " ") + "--help`";
 }
 
+/// "`moreau simulate` has it", of the commands that have an option; "" for none.
+std::string who_has(const CLI::App& app, const std::string& option) {
+  std::vector<std::string> found;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (command->get_option_no_throw(option) != nullptr && !command->get_group().empty())
+      found.push_back("`moreau " + command->get_name() + "`");
+  if (found.size() <= 1) return found.empty() ? "" : found.front() + " has it";
+  return found[0] + (found.size() == 2 ? " and " : ", ") + found[1] +
+         (found.size() == 2 ? " have it" : " and others have it");
+}
+
+/// What to do about "-o" or "-at": the one option whose name begins so.
+std::string with_two_dashes(const std::string& given, const std::vector<std::string>& known) {
+  std::vector<std::string> begun;
+  for (const std::string& name : known)
+    if (name.starts_with(given.substr(1))) begun.push_back(name);
+  const bool is_one =
+      begun.size() == 1 || std::find(begun.begin(), begun.end(), given.substr(1)) != begun.end();
+  if (!is_one) return "options have two dashes";
+  return "did you mean --" + (begun.size() == 1 ? begun.front() : given.substr(1)) + "?";
+}
+
 /// A message about what the command called does not take, with the nearest of its options; "" when all was
 /// taken.
 std::string unexpected(const CLI::App& app) {
@@ -87,13 +110,19 @@ std::string unexpected(const CLI::App& app) {
   if (const auto minus = std::find_if(left.begin(), left.end(), is_negative); minus != left.end())
     return "\"" + *minus +
            "\" begins with a minus; a negative multiple of a convex function is none, give f itself";
-  if (found == left.end())
-    return left.empty()
-               ? ""
-               : "\"" + left.front() + "\" is more than " + command.get_name() + " takes; " + help_on(app);
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) known.push_back(name);
+  if (found == left.end()) {
+    if (left.empty()) return "";
+    const std::string& first = left.front();
+    if (first.size() > 1 && first[0] == '-' && std::isalpha(static_cast<unsigned char>(first[1])) != 0)
+      return command.get_name() + " has no option " + first + "; " + with_two_dashes(first, known);
+    const CLI::Option* at = first[0] == '[' ? command.get_option_no_throw("--at") : nullptr;
+    const bool is_point = at != nullptr && at->empty();
+    return "\"" + first + "\" is more than " + command.get_name() + " takes; " +
+           (is_point ? "a point stands behind --at, --at \"" + first + "\"" : help_on(app));
+  }
   const std::string name = found->substr(2, found->find('=') - 2);
   const std::string has_none = command.get_name() + " has no option --" + name + "; ";
   const bool takes_settings = std::find(known.begin(), known.end(), "set") != known.end();
@@ -103,12 +132,21 @@ std::string unexpected(const CLI::App& app) {
   if (std::find(known.begin(), known.end(), name) != known.end())
     return "--" + name + " stands before the command; write it behind, `moreau " + command.get_name() +
            " … --" + name + "`";
+  if (const std::string others = who_has(app, "--" + name); !others.empty())
+    return has_none + others + ", " + help_on(app);
   const std::string nearest = convex::nearest_name(name, known);
   return has_none + (nearest.empty() ? help_on(app) : "did you mean --" + nearest + "?");
 }
 
-/// "--until: "x" is no number", of CLI11's own "Could not convert: --until = x".
+/// "--until: "x" is no number", of CLI11's own "Could not convert: --until = x"; "--until: no value behind
+/// it", of "--until: 1 required T missing".
 std::string in_own_words(const std::string& said) {
+  const std::string before = ": 1 required ", behind = " missing";
+  if (const std::size_t at = said.find(before); at != std::string::npos && said.ends_with(behind)) {
+    const std::string option = said.substr(0, at), value = said.substr(at + before.size());
+    return option + ": no value behind it; write " + option + " " +
+           value.substr(0, value.size() - behind.size());
+  }
   const std::string prefix = "Could not convert: ";
   const std::size_t equals = said.find(" = ");
   if (said.rfind(prefix, 0) != 0 || equals == std::string::npos) return said;

@@ -193,6 +193,12 @@ TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> kn
   return table;
 }
 
+std::string table_of_key(const std::string& key) {
+  for (const OtherWord& home : homes)
+    if (key == home.word) return home.key;
+  return "";
+}
+
 MeantTable::MeantTable(const TomlValue& given, const std::string& where,
                        std::initializer_list<const char*> known, convex::Mistakes& mistakes)
     : table_(&given) {

@@ -20,6 +20,9 @@ void require_known_keys(const TomlValue& table, const std::string& where,
 /// are missing: what stands behind it can be read, too.
 TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> known);
 
+/// The table of a mechanism's file that a key belongs to, "simulate" of "until"; "" of others.
+std::string table_of_key(const std::string& key);
+
 /// A table whose unknown keys have been added to the mistakes: itself, or with the keys that are meant.
 class MeantTable {
  public:

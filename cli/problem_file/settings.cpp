@@ -115,6 +115,22 @@ void require_no_list(TomlValue& table, const std::string& key, const Setting& se
                               std::to_string(list->array.size()) + ", counted from 0");
 }
 
+/// A key that stands in another table of the file, or a table itself.
+void refuse_key_of_table(const TomlValue& system, const Setting& setting) {
+  const std::string& key = setting.key;
+  for (const char* name : {"definitions", "constraints"})
+    if (const TomlValue* table = system.find(name); table != nullptr && table->find(key) != nullptr)
+      refuse_setting(setting, std::string("this stands below ") + name + "; write " + name + "." + key);
+  if (key == "method" || key == "tolerance")
+    refuse_setting(setting,
+                   "[solve] and [simulate] have one each; write solve." + key + " or simulate." + key);
+  const std::string table = table_of_key(key);
+  if (key == "position" || key == "velocity")
+    refuse_setting(setting, "this is a table; write " + key + ".x for that of a coordinate x");
+  if (!table.empty() && table != "system")
+    refuse_setting(setting, "this stands below [" + table + "]; write " + table + "." + key);
+}
+
 /// What a key of one part stands for: a parameter, t, or a key of the table that the problem is.
 std::string full_key(const TomlValue& document, const Setting& setting) {
   const std::string& key = setting.key;
@@ -133,6 +149,7 @@ std::string full_key(const TomlValue& document, const Setting& setting) {
     const TomlValue* position = state == nullptr ? nullptr : state->find("position");
     if (position != nullptr && position->find(key) != nullptr)
       refuse_setting(setting, "this is a coordinate; write position." + key + " or velocity." + key);
+    refuse_key_of_table(*table, setting);
     const std::string nearest = convex::nearest_name(key, known);
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
