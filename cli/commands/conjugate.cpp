@@ -64,7 +64,7 @@ ConjugateQuestion read_question(const FunctionOptions& options, Source& source) 
           fmt::format("metric: {} rows; give {}, one per entry of y", W->dimension(), y->size()));
   }
   source = {"f", options.expression};
-  const convex::Call call = parse_call(options.expression, "f");
+  const convex::Call call = parse_known_call(options.expression, "f");
   if (!W) W = Metric::identity(y ? y->size() : number_of_entries(call));
   return {convex::make_function(call, {*W}), call, *W, y};
 }

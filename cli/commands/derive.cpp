@@ -205,8 +205,11 @@ void add_derive(CLI::App& program, Work& chosen) {
   CLI::Option& c =
       *command.add_flag("--c", options->c, "a C99 function of q, q' and t, parameters as constants");
   CLI::Option& python = *command.add_flag("--python", options->python, "the same in Python, with numpy");
-  command.add_flag("--latex", options->latex, "the formulas, for LaTeX with amsmath")->excludes(&c, &python);
-  python.excludes(&c);
+  CLI::Option& json = *command.get_option("--json");
+  command.add_flag("--latex", options->latex, "the formulas, for LaTeX with amsmath")
+      ->excludes(&c, &python, &json);
+  python.excludes(&c, &json);
+  c.excludes(&json);
   command
       .add_option("--mtx", options->matrices, "a folder for A.mtx, z.mtx, U.mtx, s.mtx: numbers at the state")
       ->type_name("DIR");

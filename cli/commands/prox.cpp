@@ -109,7 +109,7 @@ DecompositionProblem read_problem(const AskedPoint& point, const ProxOptions& op
           fmt::format("metric: {} rows; give {}, one per entry of z", W.dimension(), point.z.size()));
   }
   source = {"f", options.expression};
-  convex::Call f = parse_call(options.expression, "f");
+  convex::Call f = parse_known_call(options.expression, "f");
   const bool is_divided = options.step && !convex::takes_product(f);
   if (is_divided)
     W = W.scaled(1 / step_of(options));

@@ -67,7 +67,7 @@ ToldSubdifferential find_subdifferential(const SubdifferentialOptions& options, 
           fmt::format("metric: {} rows; give {}, one per entry of x", W.dimension(), told.x.size()));
   }
   source = {"f", options.expression};
-  told.f = parse_call(options.expression, "f");
+  told.f = parse_known_call(options.expression, "f");
   const convex::Function f = convex::make_function(told.f, {in_doubles});
   f(nearest(told.x));  // checks the number of entries
   told.at = convex::subdifferential(told.f, W, told.x);

@@ -56,7 +56,7 @@ Exit tell(const FunctionOptions& options, bool is_prox, const std::optional<Frac
     require_applicable_to_symbols(options, source);
     const Fraction w = weight(options, source);
     source = {"f", options.expression};
-    const convex::Call call = parse_call(options.expression, "f");
+    const convex::Call call = parse_known_call(options.expression, "f");
     // What the language refuses, symbols refuse with the same words.
     convex::make_function(call, {convex::Metric::identity(1).scaled(convex::nearest_double(w))});
     const symbolic::Function f = symbolic::function_of(call, w);

@@ -7,6 +7,7 @@
 #include "cli/function_language/read_number.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/mistakes.hpp"
 
 namespace cli::inline function_language {
 namespace {
@@ -197,11 +198,32 @@ WrittenList only_list(std::string_view text, std::string_view what, Place begin,
   return list;
 }
 
+/// What is wrong with the names of a call and of those within it, and with the names of their arguments.
+void gather_wrong_names(const Call& call, convex::Mistakes& mistakes) {
+  mistakes.gather([&] {
+    const convex::CatalogueEntry* entry = convex::find_entry(call.name);
+    if (entry == nullptr) throw convex::InvalidInput(convex::unknown_entry(call.name), call.place);
+    const convex::Space any{convex::Metric::identity(1)};
+    const convex::Arguments checked(*entry, call, any);
+  });
+  for (const NamedArgument& argument : call.arguments)
+    if (const auto* nested = std::get_if<std::shared_ptr<const Call>>(&argument.value))
+      gather_wrong_names(**nested, mistakes);
+}
+
 }  // namespace
 
 Call parse_call(std::string_view text, std::string_view what, Place begin) {
   Cursor cursor(text, what, begin);
   return Parser(cursor).only_call();
+}
+
+Call parse_known_call(std::string_view text, std::string_view what, Place begin) {
+  Call call = parse_call(text, what, begin);
+  convex::Mistakes mistakes;
+  gather_wrong_names(call, mistakes);
+  mistakes.tell();
+  return call;
 }
 
 convex::Vector parse_vector(std::string_view text, std::string_view what, Place begin) {

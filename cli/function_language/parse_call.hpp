@@ -16,6 +16,9 @@ inline constexpr int deepest_call = 256;
 /// InvalidInput "what: what is wrong; what to do" with the place.
 convex::Call parse_call(std::string_view text, std::string_view what, convex::Place begin = {});
 
+/// The same; what is wrong with any of its names, and those of arguments, is told at once.
+convex::Call parse_known_call(std::string_view text, std::string_view what, convex::Place begin = {});
+
 /// Reads a vector that stands alone.
 convex::Vector parse_vector(std::string_view text, std::string_view what, convex::Place begin = {});
 

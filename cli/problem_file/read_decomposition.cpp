@@ -54,7 +54,8 @@ DecompositionProblem read_decomposition(const TomlValue& given, const std::strin
       point = read_vector(*z, "z");
       if (n == 0) throw InvalidInput("z: empty; give at least one number", z->place);
     });
-  if (f != nullptr) mistakes.gather([&] { call = parse_call(require_string(*f, "f"), "f", f->content); });
+  if (f != nullptr)
+    mistakes.gather([&] { call = parse_known_call(require_string(*f, "f"), "f", f->content); });
   if (metric != nullptr && n > 0)
     mistakes.gather([&] {
       gram_metric = read_metric(*metric, {"decomposition", "metric", directory, n, "one per entry of z"});

@@ -241,7 +241,7 @@ for x -> f(Ax). Envelopes, supports and proximal averages take the product of th
     return shared(call_of(name, positional, named));
   });
   module.def("parse", [](const std::string& text) {
-    const Call call = cli::parse_call(text, "f");
+    const Call call = cli::parse_known_call(text, "f");
     require_known(call);
     return shared(call);
   });

@@ -98,6 +98,7 @@ TEST_CASE("who asks for JSON has what is wrong with the command line in one obje
   expect_object({"solve", file, "--json", "--tolerance"}, file, "--tolerance");
   expect_object({"solve", file, file, "--json", "--quietly"}, file, "--quiet");
   expect_object({"derive", "--method", "exact", file, "--json"}, file, "--method");
+  expect_object({"derive", "--latex", file, "--json"}, file, "--latex");
   expect_object({"convert", file, "--json"}, file, "OUT");
   expect_object({"solve", "--json"}, "", "FILE");
   expect_object({"slove", file, "--json"}, "", "solve");

@@ -142,6 +142,15 @@ TEST_CASE("mistakes of numbers are told at once: of [projection], [decomposition
        "4:5: z: 3 entries; ", "4:12: z[2]: ", "5:23: metric[1][1]: ", "6:13: dimension: 4; "});
 }
 
+TEST_CASE("wrong names within one function are told at once, with what is wrong beside it") {
+  check_told(
+      "[decomposition]\nz = [1, true]\nf = \"norm1(wieght=2) + 2*nom2() + envelope(nrm1(), gama=1)\"\n",
+      {"2:9: z[1]: ", "3:12: norm1: there is no argument \"wieght\"; ",
+       "3:26: there is no set, function or operation \"nom2\"; ",
+       "3:44: there is no set, function or operation \"nrm1\"; ",
+       "3:52: envelope: there is no argument \"gama\"; "});
+}
+
 TEST_CASE("rows of one wrong length are one mistake") {
   check_told("[projection]\nA = [[2], [0, 1, 1], [3]]\nz = [0, 1, 2]\n", {"2:6: A[0]: 1 entry; give 3"});
   check_told("[projection]\nA = [[2], [0, 1], [3]]\nz = [0, 1, 2]\n",
