@@ -40,6 +40,11 @@ convex::Metric kinetic_metric(const convex::SparseMatrix& A, const std::vector<s
       return convex::Metric::dense(convex::Matrix(A));
     return convex::Metric::sparse(A);
   } catch (const convex::InvalidInput&) {
+    if (n > 0 && A.squaredNorm() == 0)
+      throw convex::InvalidInput(
+          "kinetic: T is not positive definite in the velocities at this state, it is 0 whatever they are; "
+          "give every motion a positive kinetic energy, the velocity of " +
+          coordinates[0] + " is " + coordinates[0] + "'");
     Index fault = -1;
     for (Index i = 0; i < n && fault < 0; ++i)
       if (!(A.coeff(i, i) > 0)) fault = i;

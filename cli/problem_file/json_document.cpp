@@ -101,14 +101,16 @@ class JsonReader {
     if (peek() == '}') return void(++at_);
     do {
       skip_space();
-      const Place where = place();
+      mechanics::TextOrigin where(place());
       if (peek() != '"') fail("expected a key in quotation marks");
-      std::string key = string().first;
+      const auto [key, letters] = string();
+      where.jumps.push_back({1, {where.line, where.column + 2}});
+      where.jumps.insert(where.jumps.end(), letters.jumps.begin(), letters.jumps.end());
       if (to.find(key) != nullptr)
         throw InvalidInput("the key \"" + shown(key) + "\" stands here twice; keep one", where);
       expect(':');
       key_ = shown(key);
-      to.table.push_back({std::move(key), where, value(depth + 1)});
+      to.table.push_back({key, where, value(depth + 1)});
     } while (comma_before('}'));
   }
 

@@ -25,6 +25,9 @@ Text expression(const TomlValue& value, const std::string& where) {
   if (value.is_number() && !std::isfinite(value.number))
     throw InvalidInput(where + ": " + value.text + " is not finite; give a finite number", value.place);
   if (value.is_string() || value.is_number()) return {value.text, value.content};
+  if (value.kind == TomlValue::Kind::array)
+    throw InvalidInput(
+        where + ": a list; give one expression in quotation marks, or one number, under a name", value.place);
   throw InvalidInput(
       where + ": neither an expression nor a number; give an expression in quotation marks, or a number",
       value.place);

@@ -23,7 +23,8 @@ class Converter {
     if (const auto* table = node.as_table()) {
       made.kind = TomlValue::Kind::table;
       for (const auto& [key, child] : *table)
-        made.table.push_back({std::string(key.str()), place(key.source().begin), value(child)});
+        made.table.push_back({std::string(key.str()),
+                              of_key(place(key.source().begin), std::string(key.str())), value(child)});
       std::stable_sort(made.table.begin(), made.table.end(), [](const TomlEntry& a, const TomlEntry& b) {
         return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
       });
@@ -73,6 +74,16 @@ class Converter {
     before_ = at;
     offset_before_ = i;
     return i;
+  }
+
+  /// Of a key: the place of its quotation mark, and behind its first character those of the others.
+  mechanics::TextOrigin of_key(convex::Place at, const std::string& key) const {
+    mechanics::TextOrigin made(at);
+    const std::size_t i = offset(at);
+    if (i >= text_.size() || (text_[i] != '"' && text_[i] != '\'')) return made;
+    made.jumps.push_back({1, {at.line, at.column + 2}});
+    for (const auto& jump : content(at, key).jumps) made.jumps.push_back(jump);
+    return made;
   }
 
   mechanics::TextOrigin content(convex::Place at, const std::string& decoded) const {

@@ -30,7 +30,7 @@ struct TomlValue {
 
 struct TomlEntry {
   std::string key;
-  convex::Place place;  ///< of the key
+  mechanics::TextOrigin place;  ///< of the key, its quotation mark if any; then where its characters stand
   TomlValue value;
 };
 

@@ -70,6 +70,7 @@ class Parsing {
   bool at_index_declaration() const;
   void member(const Name& meaning, const Token& name);
   void number_in(Vocabulary vocabulary, void (Parsing::*part)());
+  [[noreturn]] void refuse_behind_name(const char* wanted) const;
   void refuse_if_out_of_vocabulary(const Token& name, Name::Kind kind) const;
   [[noreturn]] void refuse_unknown(const Token& name) const;
   void unknown(const Token& name);

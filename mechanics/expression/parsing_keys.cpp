@@ -10,7 +10,7 @@ constexpr std::uint32_t most_indices = 8;  // of one family; its place in an ins
 KeyName Parsing::key_name() {
   const Token name = expect(Kind::name, "a name: letters, digits and _, not starting with a digit");
   if (token_.kind == Kind::end) return {std::string(name.text), 0};
-  if (token_.kind != Kind::open_index) unexpected("the end of the name or \"[\"");
+  if (token_.kind != Kind::open_index) refuse_behind_name("the end of the name or \"[\"");
   std::uint32_t indices = 1;
   int open = 0;  // a comma inside brackets or parentheses separates no indices of this key
   for (advance(); token_.kind != Kind::end; advance()) {
@@ -41,7 +41,7 @@ Key Parsing::named_key(bool declares_ranges) {
     } while (accept(Kind::comma));
     expect(Kind::close_index, "an operator or \"]\"");
   }
-  if (token_.kind != Kind::end) unexpected("the end of the name");
+  if (token_.kind != Kind::end) refuse_behind_name("the end of the name");
   return key;
 }
 

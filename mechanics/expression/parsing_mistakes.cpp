@@ -1,3 +1,4 @@
+#include <cctype>
 #include <tuple>
 #include <utility>
 
@@ -25,9 +26,28 @@ void Parsing::unexpected(const char* wanted) const {
   const char* hint = "";
   if (std::string_view(wanted).starts_with("an operator")) {
     if (is_factor) hint = ": a product is written with *, and numbers carry no units";
-    if (token_.kind == Kind::comma) hint = ": a decimal is written with a point, 0.5";
+    const bool is_decimal =
+        ahead_.kind == Kind::number && token_.offset > 0 &&
+        std::isdigit(static_cast<unsigned char>(source_->text.text[token_.offset - 1])) != 0;
+    if (token_.kind == Kind::comma)
+      hint =
+          is_decimal ? ": a decimal is written with a point, 0.5" : ": one expression stands under one name";
+    if (token_.kind == Kind::name && (token_.text == "and" || token_.text == "or"))
+      hint = ": one expression stands under one name, and all constraints hold";
   }
   source_->fail(token_.offset, "got " + got + "; expected " + wanted + hint);
+}
+
+/// What stands behind a name that is to stand alone.
+void Parsing::refuse_behind_name(const char* wanted) const {
+  if (token_.kind == Kind::prime)
+    source_->fail(token_.offset, "a name has no prime here; a velocity goes by the name of its coordinate");
+  if (token_.kind == Kind::comma || token_.kind == Kind::name || token_.kind == Kind::number)
+    source_->fail(token_.offset,
+                  "got " + quoted(token_.text) +
+                      " behind a name of letters, digits and _; write one word, or each name in "
+                      "quotation marks of its own");
+  unexpected(wanted);
 }
 
 void Parsing::refuse_if_out_of_vocabulary(const Token& name, Name::Kind kind) const {

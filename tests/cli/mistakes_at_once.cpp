@@ -193,6 +193,16 @@ TEST_CASE("a place behind an escape or a continued line is that in the file") {
   check_told(point_on_floor({{4, "potential = 'm*g*y + sinn(y)'"}}), {"4:22: potential: "});
 }
 
+TEST_CASE("a place within a key in quotation marks is that in the file") {
+  const char* const family = "\"gap[i in 1..NN]\" = \"x >= -i\"";
+  check_told(point_on_floor({{9, family}}), {"9:14: constraints: \"NN\" is unknown; "});
+  check_told(point_on_floor({{9, R"("gap[\u0069 in 1..NN]" = "x >= -i")"}}), {"9:19: constraints: \"NN\" "});
+  check_told(
+      R"({"system": {"coordinates": ["x"], "kinetic": "x'^2", "constraints": {"gap[\u0069 in 1..N]": "x>=0"}},)"
+      R"("state": {"position": {"x": 0}}})",
+      {"1:88: constraints: \"N\" is unknown; "});
+}
+
 TEST_CASE("a place behind an escape of JSON is that in the file, and columns count characters") {
   const auto of_kinetic = [](const std::string& kinetic) {
     return "{\"title\": \"\u00e9\", \"system\": {\"coordinates\": [\"x\"], \"kinetic\": \"" + kinetic +
@@ -228,7 +238,7 @@ TEST_CASE("what follows from a mistake is not told as another one") {
              {"1:2: unknown key \"sistem\"; "});
   check_told(point_on_floor({{2, "coordinate = [\"x\", \"y\"]"}}),
              {"2:1: unknown key \"coordinate\" in [system]; "});
-  check_told(point_on_floor({{6, "\"m-1\" = 2.0"}}), {"6:2: "});
+  check_told(point_on_floor({{6, "\"m-1\" = 2.0"}}), {"6:3: "});
 }
 
 TEST_CASE("the object of an error has the first one, and all of them as a list") {
