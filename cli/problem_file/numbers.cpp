@@ -1,5 +1,6 @@
 #include "cli/problem_file/numbers.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "cli/problem_file/keys.hpp"
@@ -40,10 +41,24 @@ Index entries_of(const TomlValue* list) {
   return is_list ? static_cast<Index>(list->array.size()) : -1;
 }
 
+Index length_of(const TomlValue* vector) {
+  const bool has_rows = entries_of(vector) > 0 && entries_of(&vector->array.front()) >= 0;
+  return has_rows ? -1 : entries_of(vector);
+}
+
 const TomlValue& require_array(const TomlValue& value, const std::string& where) {
   if (value.kind != TomlValue::Kind::array)
     throw InvalidInput(where + ": not a list; write " + where + " = [ … ]", value.place);
   return value;
+}
+
+void require_rows(const TomlValue& value, const std::string& where, const std::string& other) {
+  const bool is_list = value.kind == TomlValue::Kind::array;
+  const auto is_row = [](const TomlValue& row) { return row.kind == TomlValue::Kind::array; };
+  if (is_list && (value.array.empty() || std::any_of(value.array.begin(), value.array.end(), is_row))) return;
+  throw InvalidInput(where + ": " + (is_list ? "numbers where rows stand" : "no list of rows") +
+                         "; write a list for each row, " + where + " = [[2, 0], [0, 1]], or " + other,
+                     value.place);
 }
 
 Vector read_vector(const TomlValue& value, const std::string& where) {

@@ -115,8 +115,16 @@ BodyNumbers read_numbers(const TomlEntry& entry, const std::string& where, Lagra
 
 }  // namespace
 
-void add_bodies(const TomlValue& bodies, LagrangianText& system, convex::Mistakes& mistakes) {
-  if (!mistakes.gather([&] { require_table(bodies, "bodies"); })) return;
+bool add_bodies(const TomlValue& bodies, LagrangianText& system, convex::Mistakes& mistakes) {
+  const bool are_named = mistakes.gather([&] {
+    require_table(bodies, "bodies");
+    for (const TomlEntry& entry : bodies.table)
+      if (entry.value.kind != TomlValue::Kind::table)
+        throw InvalidInput("bodies." + shown(entry.key) +
+                               ": no body; give each a name and a table, [bodies.ball] with mass and inertia",
+                           entry.place);
+  });
+  if (!are_named) return false;
   for (const TomlEntry& entry : bodies.table) {
     const std::string where = "bodies." + shown(entry.key);
     if (entry.key.empty() || !std::all_of(entry.key.begin(), entry.key.end(), is_letter_or_digit)) {
@@ -137,6 +145,7 @@ void add_bodies(const TomlValue& bodies, LagrangianText& system, convex::Mistake
         {{entry.key + "_unit", entry.place},
          {e("0") + " + " + e("1") + " + " + e("2") + " + " + e("3") + " = 1", entry.place}});
   }
+  return true;
 }
 
 }  // namespace cli::inline problem_files

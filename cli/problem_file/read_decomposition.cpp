@@ -45,7 +45,7 @@ DecompositionProblem read_decomposition(const TomlValue& given, const std::strin
   if ((z == nullptr || f == nullptr) && meant.is_whole())
     mistakes.add(InvalidInput("decomposition: z and f are needed; give both, z = [3, -1] and f = \"norm1()\"",
                               table.place));
-  const convex::Index n = entries_of(z);  // known where its numbers are wrong, too
+  const convex::Index n = length_of(z);  // known where its numbers are wrong, too
   convex::Vector point;
   convex::Call call;
   std::optional<convex::Metric> gram_metric;

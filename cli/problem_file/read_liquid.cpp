@@ -67,43 +67,64 @@ long cell_count(const TomlValue& value) {
                      value.place);
 }
 
-const TomlValue& required(const TomlValue& table, const std::string& key, const char* example) {
-  const TomlValue* value = table.find(key);
-  if (value == nullptr) throw InvalidInput("liquid." + key + ": missing; write " + example, table.place);
-  return *value;
-}
-
 }  // namespace
 
-LiquidProblem read_liquid(const TomlValue& table) {
+LiquidProblem read_liquid(const TomlValue& given) {
   constexpr std::size_t most_coordinates = 3;
-  require_known_keys(table, "liquid",
-                     {"coordinates", "domain", "density", "velocity", "force", "free", "walls", "cells",
-                      "low", "high", "symmetry", "parameters"});
+  convex::Mistakes mistakes;
+  const MeantTable meant(given, "liquid",
+                         {"coordinates", "domain", "density", "velocity", "force", "free", "walls", "cells",
+                          "low", "high", "symmetry", "parameters"},
+                         mistakes);
+  const TomlValue& table = meant.table();
+  const auto read = [&](const char* key, const auto& work) {
+    const TomlValue* value = table.find(key);
+    return value != nullptr && mistakes.gather([&] { work(*value); });
+  };
+  std::string missing;
+  for (const auto& [key, example] : {std::pair("coordinates", "coordinates = [\"x\", \"y\"]"),
+                                     {"domain", "domain = \"disc(center=[0, 0], radius=1)\""},
+                                     {"density", "density = 1000"}})
+    if (table.find(key) == nullptr) missing += std::string(missing.empty() ? "" : ", ") + example;
+  if (!missing.empty() && meant.is_whole())
+    mistakes.add(InvalidInput("liquid: keys are missing; write " + missing, table.place));
   LiquidText text;
-  const TomlValue& names = required(table, "coordinates", "coordinates = [\"x\", \"y\"]");
-  for (const TomlValue& name : require_array(names, "liquid.coordinates").array)
-    text.coordinates.push_back({require_string(name, "liquid.coordinates"), name.content});
-  const std::size_t n = text.coordinates.size();
-  if (n < 1 || n > most_coordinates)
-    throw InvalidInput("liquid.coordinates: " + std::to_string(n) + " of them; give one, two or three",
-                       names.place);
-  const TomlValue& domain = required(table, "domain", "domain = \"disc(center=[0, 0], radius=1)\"");
-  text.domain = {require_string(domain, "liquid.domain"), domain.content};
-  text.density = liquid_expression(required(table, "density", "density = 1000"), "liquid.density");
-  text.velocity = components(table, "velocity", n);
-  text.force = components(table, "force", n);
-  text.free = parts(table, "free", "pressure");
-  text.walls = parts(table, "walls", "acceleration");
-  text.low = components(table, "low", n);
-  text.high = components(table, "high", n);
-  if (const TomlValue* cells = table.find("cells")) text.cells = cell_count(*cells);
-  if (const TomlValue* symmetry = table.find("symmetry"))
-    text.symmetry = {require_string(*symmetry, "liquid.symmetry"), symmetry->content};
-  if (const TomlValue* parameters = table.find("parameters"))
-    for (const TomlEntry& entry : require_table(*parameters, "liquid.parameters").table)
-      text.parameters.push_back({{entry.key, entry.place},
-                                 liquid_expression(entry.value, "liquid.parameters." + shown(entry.key))});
+  const bool has_coordinates = read("coordinates", [&](const TomlValue& names) {
+    for (const TomlValue& name : require_array(names, "liquid.coordinates").array)
+      text.coordinates.push_back({require_string(name, "liquid.coordinates"), name.content});
+    const std::size_t n = text.coordinates.size();
+    if (n < 1 || n > most_coordinates)
+      throw InvalidInput("liquid.coordinates: " + std::to_string(n) + " of them; give one, two or three",
+                         names.place);
+  });
+  read("domain", [&](const TomlValue& domain) {
+    text.domain = {require_string(domain, "liquid.domain"), domain.content};
+  });
+  read("density",
+       [&](const TomlValue& density) { text.density = liquid_expression(density, "liquid.density"); });
+  if (has_coordinates)
+    for (const auto& [key, to] : {std::pair("velocity", &text.velocity),
+                                  {"force", &text.force},
+                                  {"low", &text.low},
+                                  {"high", &text.high}}) {
+      auto& values = *to;
+      const std::string name = key;
+      mistakes.gather([&] { values = components(table, name, text.coordinates.size()); });
+    }
+  mistakes.gather([&] { text.free = parts(table, "free", "pressure"); });
+  mistakes.gather([&] { text.walls = parts(table, "walls", "acceleration"); });
+  read("cells", [&](const TomlValue& cells) { text.cells = cell_count(cells); });
+  read("symmetry", [&](const TomlValue& symmetry) {
+    text.symmetry = {require_string(symmetry, "liquid.symmetry"), symmetry.content};
+  });
+  read("parameters", [&](const TomlValue& parameters) {
+    for (const TomlEntry& entry : require_table(parameters, "liquid.parameters").table)
+      mistakes.gather([&] {
+        text.parameters.push_back({{entry.key, entry.place},
+                                   liquid_expression(entry.value, "liquid.parameters." + shown(entry.key))});
+      });
+  });
+  mistakes.tell();
   return {std::move(text)};
 }
 

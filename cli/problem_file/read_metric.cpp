@@ -14,6 +14,9 @@ using convex::InvalidInput;
 using convex::Metric;
 
 Metric from_rows(const TomlValue& value, const MetricKey& key) {
+  require_rows(value, key.key,
+               value.is_string() ? key.key + " = { matrix_market = \"" + shown(value.text) + "\" } for a file"
+                                 : key.key + " = { diagonal = [2, 1] }");
   const convex::RowMatrix W = read_matrix(value, key.key, key.n, key.why);
   if (W.rows() != key.n)
     throw InvalidInput(key.key + ": " + std::to_string(W.rows()) + (W.rows() == 1 ? " row" : " rows") +

@@ -18,9 +18,13 @@ constexpr const char* as_the_first = "as many as the first row has";
 /// Of n = -1, where z tells no number of coordinates, the numbers alone.
 convex::ConstraintRows read_rows(const TomlValue* value, const std::string& directory, Index n) {
   if (value == nullptr) return convex::ConstraintRows(convex::RowMatrix(0, std::max<Index>(0, n)));
-  if (value->kind != TomlValue::Kind::table)
+  if (value->kind != TomlValue::Kind::table) {
+    require_rows(*value, "U",
+                 value->is_string() ? "U = { matrix_market = \"" + shown(value->text) + "\" } for a file"
+                                    : "U = { matrix_market = \"U.mtx\" }");
     return convex::ConstraintRows(read_matrix(
         *value, "U", n, n < 0 ? as_the_first : "one per coordinate (z has " + std::to_string(n) + ")"));
+  }
   require_known_keys(*value, "projection.U", {"matrix_market"});
   const TomlValue* file = value->find("matrix_market");
   if (file == nullptr) throw InvalidInput("U: an empty table; give matrix_market = \"U.mtx\"", value->place);
@@ -78,7 +82,7 @@ ProjectionProblem read_projection(const TomlValue& given, const std::string& dir
                                                   : "A and z are missing; give both,") +
                                   " the n×n matrix A and the n numbers of z",
                               table.place));
-  const Index n = entries_of(z);  // known where its numbers are wrong, too
+  const Index n = length_of(z);  // known where its numbers are wrong, too
   Index m = U == nullptr && meant.is_whole() ? 0 : entries_of(U);
   Vector force, bound;
   convex::ConstraintRows rows;

@@ -97,7 +97,7 @@ bool read_lagrangian(mechanics::LagrangianText& system, const TomlValue& table, 
   system.definitions = named(table.find("definitions"), "system.definitions", mistakes);
   system.forces = named(table.find("forces"), "system.forces", mistakes);
   system.constraints = named(table.find("constraints"), "system.constraints", mistakes);
-  if (bodies != nullptr && is_whole) add_bodies(*bodies, system, mistakes);
+  if (bodies != nullptr && is_whole) are_named = add_bodies(*bodies, system, mistakes) && are_named;
   return has_list && are_named;
 }
 

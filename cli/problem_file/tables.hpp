@@ -13,8 +13,8 @@ SystemProblem read_system(const TomlValue& document, const std::string& director
                           convex::Mistakes& mistakes);
 
 /// `[bodies]`: rigid bodies in space, by their coordinates, their part of T and |e| = 1. What is wrong is
-/// added to the mistakes; the names of the bodies are there all the same.
-void add_bodies(const TomlValue& bodies, mechanics::LagrangianText& system, convex::Mistakes& mistakes);
+/// added to the mistakes; the names of the bodies are there all the same, if they are told at all.
+bool add_bodies(const TomlValue& bodies, mechanics::LagrangianText& system, convex::Mistakes& mistakes);
 
 /// `[projection]`; matrix files are looked for in `directory`.
 ProjectionProblem read_projection(const TomlValue& table, const std::string& directory);

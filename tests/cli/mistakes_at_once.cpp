@@ -151,6 +151,20 @@ TEST_CASE("wrong names within one function are told at once, with what is wrong 
        "3:52: envelope: there is no argument \"gama\"; "});
 }
 
+TEST_CASE("mistakes in the keys of [liquid] are told at once") {
+  check_told(
+      "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = 3\ndensty = 1\nvelocity = [\"x\"]\ncells = 0\n"
+      "free = 3\nparameters = { k = true }\n",
+      {"3:10: liquid.domain: ", "4:1: unknown key \"densty\"", "5:12: liquid.velocity: 1 ",
+       "6:9: liquid.cells: ", "7:8: liquid.free: ", "8:20: liquid.parameters.k: "});
+}
+
+TEST_CASE("what hangs on a z that is a matrix, or on bodies without names, is not told as another mistake") {
+  check_told("[projection]\nA = [[2, 0], [0, 1]]\nz = [[0, 1]]\nU = [[0, 1]]\ns = [0]\n", {"3:6: z[0]: "});
+  check_told("[system]\n[bodies]\nmass = 2\ninertia = [1, 1, 1]\n[state]\nposition = { b_x = 0 }\n",
+             {"3:1: bodies.mass: no body; "});
+}
+
 TEST_CASE("rows of one wrong length are one mistake") {
   check_told("[projection]\nA = [[2], [0, 1, 1], [3]]\nz = [0, 1, 2]\n", {"2:6: A[0]: 1 entry; give 3"});
   check_told("[projection]\nA = [[2], [0, 1], [3]]\nz = [0, 1, 2]\n",
