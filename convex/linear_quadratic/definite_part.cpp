@@ -61,7 +61,7 @@ void spread_curvature(const LinearQuadratic& f, const Vector& diagonal, const Ve
     if (length[a] > 0)
       for (SparseRows::InnerIterator it(f.G, a); it; ++it)
         if (const double square = std::pow(it.value() / length[a], 2); soft(it.col()) && square > 0)
-          least[it.col()] = std::min(least[it.col()], square);  // one that underflows tells no scale
+          least[it.col()] = std::min(least[it.col()], square);  // one beyond doubles tells no scale
   for (Index j = 0; j < f.variables(); ++j)
     if (soft(j) && diagonal[j] > 0) least[j] = std::min(least[j], diagonal[j]);
   for (bool changed = true; changed;) {
@@ -74,7 +74,7 @@ void spread_curvature(const LinearQuadratic& f, const Vector& diagonal, const Ve
       if (row == infinity) continue;
       for (SparseRows::InnerIterator it(f.G, a); it; ++it)
         if (const double square = row * it.value() * it.value();
-            soft(it.col()) && known[it.col()] == infinity && square > 0) {
+            soft(it.col()) && known[it.col()] == infinity && square > 0 && square < infinity) {
           least[it.col()] = std::min(least[it.col()], square);
           changed = true;
         }

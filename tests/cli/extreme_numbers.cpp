@@ -262,3 +262,11 @@ TEST_CASE("a value of a conjugate beyond doubles is told as not known, and infin
   CHECK(exact.out.find("exactly 25" + std::string(598, '0') + "\nProved: it is finite.") !=
         std::string::npos);
 }
+
+TEST_CASE("a conjugate whose curvatures are beyond doubles has a value, or says that it is not known") {
+  // The supremum of xy - x² - |x|³ is (2/3) y^(3/2) / sqrt(3) for large y.
+  const Outcome outcome = run({"conjugate", "power(2) + power(3)", "--at", "[1e160]", "--json"});
+  const Json told = Json::parse(outcome.out);
+  const double value = number(told.at("value")), error = number(told.at("error_bound"));
+  CHECK(std::abs(value - 3.849001794597505e239) <= error + 1e226);
+}
