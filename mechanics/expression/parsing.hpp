@@ -78,7 +78,10 @@ class Parsing {
   /// What `check` refuses of a name is told with what else is wrong in the text.
   template <class Check>
   void guess(const Check& check) {
-    is_guessed_ = !mistakes_.gather(check) || is_guessed_;
+    if (mistakes_.gather(check)) return;
+    is_guessed_ = true;
+    constexpr int most_told = 20;  // of one text; nobody corrects more before the next run
+    if (++told_ >= most_told) mistakes_.tell();
   }
   std::optional<std::uint32_t> slot(std::string_view index) const;
   std::uint32_t declare_index(const Token& name);
@@ -101,7 +104,8 @@ class Parsing {
   std::vector<Instruction> steps_;
   convex::Mistakes mistakes_;
   std::set<std::string_view> unknown_;  // names told as unknown
-  bool is_guessed_ = false;             // a name is not what it has to be: what hangs on it is not judged
+  int told_ = 0;
+  bool is_guessed_ = false;  // a name is not what it has to be: what hangs on it is not judged
 };
 
 }  // namespace mechanics::expression

@@ -110,6 +110,12 @@ TEST_CASE("mistakes within one expression are told at once, a name that is unkno
              {"2:32: coordinates: \"N\"", "2:38: coordinates: \"M\""});
 }
 
+TEST_CASE("of one expression no more mistakes are told than anybody corrects at once") {
+  std::string potential = "potential = \"0";
+  for (int k = 0; k < 1000; ++k) potential += " + q" + std::to_string(k);
+  CHECK(told(point_on_floor({{4, potential + "\""}})).size() == 20);
+}
+
 TEST_CASE("what hangs on an unknown name is not told as another mistake") {
   const auto with_r = [](const std::string& potential) {
     return point_on_floor(
