@@ -39,9 +39,12 @@ std::optional<OnGraph> on_graph(const FunctionNode& h, const Vector& u) {
 std::optional<ExactProgram> chords(const FunctionNode& h, const Vector& touched) {
   constexpr double beside = 0x1p-22;  // of û: the chords are above h by a part of its square
   std::vector<OnGraph> points;
-  for (const double side : {-1.0, 0.0, 1.0})
-    if (side == 0 || touched[0] != 0)
-      if (auto point = on_graph(h, touched + side * beside * touched.cwiseAbs())) points.push_back(*point);
+  for (const double side : {-1.0, 0.0, 1.0}) {
+    const Vector u = touched + side * beside * touched.cwiseAbs();
+    // Of an û that is subnormal, or 0, the points beside it are û itself.
+    if (side != 0 && u == touched) continue;
+    if (auto point = on_graph(h, u)) points.push_back(*point);
+  }
   if (points.empty()) return std::nullopt;
   ExactProgram made(1, 1);
   made.c[1] = fraction(1);

@@ -103,3 +103,14 @@ TEST_CASE("a point that a rounding puts outside keeps the value beside it, and o
   CHECK(told(highest, Vector{{1.0 / 3, 0.66666666666666674}}).value == doctest::Approx(0));
   CHECK(told(highest, Vector{{0.1, 0.91}}).value == INFINITY);
 }
+
+TEST_CASE("a supremum at the origin, where no point is beside it, has its value") {
+  const SupremumFarOut questions[] = {{"sum(huber(3), power(3))", Vector{{0}}, 0},
+                                      {"sum(huber(3), power(3), exponential())", Vector{{1}}, -1}};
+  for (const SupremumFarOut& question : questions) {
+    const Value value = told(question.f, question.v);
+    CAPTURE(std::string(question.f));
+    CHECK(std::abs(value.value - question.value) <= value.error);
+    CHECK(value.error <= 1e-12);
+  }
+}
