@@ -120,8 +120,10 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
 }
 
 std::optional<Vector> slope_of_smoothing(const Function& f, const Kernel& q, const Vector& x) {
-  Vector slope = smoothed(f, q, x).v;
-  return slope.size() == x.size() ? std::optional(std::move(slope)) : std::nullopt;
+  Smoothed split = smoothed(f, q, x);
+  // Of a w that may be anywhere the slope there may be any.
+  const bool known = split.v.size() == x.size() && std::isfinite(split.off);
+  return known ? std::optional(std::move(split.v)) : std::nullopt;
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look) {

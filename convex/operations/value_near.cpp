@@ -41,6 +41,18 @@ double rise_towards(const Function& f, const Vector& y, const Vector& inside, co
   return slower > rounding ? first * std::max(2.0, first / slower) : infinity;
 }
 
+/// By how much f(y.hi + y.lo) may differ from f(y.hi), which is `there`: f is convex along y.lo.
+double change_along(const Function& f, const DoubleDoubleVector& y, const Value& there) {
+  constexpr double far = 0x1p26;  // on both sides, so that what the values round counts little
+  double most = 0;
+  for (const double side : {far, -far}) {
+    const Value end = f.evaluate(y.hi + side * y.lo);
+    const double rise = std::max(end.value - there.value, 0.0) + end.error + there.error;
+    most = std::max(most, std::isnan(rise) ? infinity : rise / far);
+  }
+  return most;
+}
+
 }  // namespace
 
 double length_of(const Vector& x) {
@@ -87,7 +99,10 @@ Value value_near(const Function& f, const DoubleDoubleVector& y, double size) {
   const bool by_formula = found.error <= roundings_of_a_formula * unit_roundoff * std::abs(found.value);
   if (!std::isfinite(found.value) || y.lo.isZero(0) || !y.lo.allFinite()) return found;
   const std::optional<Vector> v = f.subgradient(y.hi);
-  if (!v || !v->allFinite()) return found;
+  if (!v || !v->allFinite()) {
+    found.error += change_along(f, y, found);
+    return found;
+  }
   const double more = v->dot(y.lo);
   if (!by_formula && std::abs(more) <= found.error) {
     found.error += std::abs(more);
