@@ -52,7 +52,8 @@ Vector definite_lengths(const LinearQuadratic& f, const Metric& W, const Vector&
   return squares.cwiseSqrt();
 }
 
-/// Least curvature g_aj² / length_a² over the rows, carried on from soft variable to soft variable.
+/// Least curvature g_aj² / length_a² over the rows, carried on from soft variable to soft variable. One that
+/// underflows, or overflows, tells no scale.
 void spread_curvature(const LinearQuadratic& f, const Vector& diagonal, const Vector& length,
                       const std::vector<bool>& is_soft, Vector& curvature) {
   const auto soft = [&](Index j) { return is_soft[static_cast<std::size_t>(j)]; };
@@ -61,7 +62,7 @@ void spread_curvature(const LinearQuadratic& f, const Vector& diagonal, const Ve
     if (length[a] > 0)
       for (SparseRows::InnerIterator it(f.G, a); it; ++it)
         if (const double square = std::pow(it.value() / length[a], 2); soft(it.col()) && square > 0)
-          least[it.col()] = std::min(least[it.col()], square);  // one beyond doubles tells no scale
+          least[it.col()] = std::min(least[it.col()], square);
   for (Index j = 0; j < f.variables(); ++j)
     if (soft(j) && diagonal[j] > 0) least[j] = std::min(least[j], diagonal[j]);
   for (bool changed = true; changed;) {

@@ -114,3 +114,21 @@ TEST_CASE("a supremum at the origin, where no point is beside it, has its value"
     CHECK(value.error <= 1e-12);
   }
 }
+
+TEST_CASE("bounds by fractions end where numbers of 1e-40 beside 1 have squares beyond doubles") {
+  const char* const f = "sum(precompose(scale(negative_power(0.5), 1e-20), [[1,1]]), squared_norm2())";
+  // With s = x_1 + x_2 it is the largest of -s + 1e-20 sqrt(s) - s²/4: 2.5e-41, nearly.
+  const Value value = told(f, Vector{{-1, -1}});
+  CHECK(std::abs(value.value - 2.5e-41) <= value.error);
+  CHECK(value.error <= 1e-12);
+}
+
+TEST_CASE("the conjugate of a square with a root of 1e-20 is told to roundings") {
+  const char* const f = "sum(precompose(scale(negative_power(0.5), 1e-20), [[1,1]]), squared_norm2())";
+  for (const Vector& v : {Vector{{1, 0.5}}, Vector{{1, 1}}, Vector{{-1, 1}}, Vector{{3, -1}}}) {
+    const Value value = told(f, v);
+    CAPTURE(v.transpose());
+    CHECK(std::abs(value.value - 0.5 * v.squaredNorm()) <= value.error + 1e-19);
+    CHECK(value.error <= 1e-14);
+  }
+}
