@@ -1,11 +1,13 @@
 #include <cmath>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/quadratic_term.hpp"
+#include "convex/operations/supremum.hpp"
 #include "convex/operations/takes_product.hpp"
 
 namespace convex::inline operations {
@@ -35,7 +37,13 @@ class Envelope : public Operation {
         Call{"envelope", {argument(of_f), argument("gamma", gamma_)}}, *M_);
     return plain;
   }
-  Value evaluate(const Vector& x) const override { return smoothed(f_, kernel(x.size()), x).value; }
+  Value evaluate(const Vector& x) const override {
+    const Smoothed split = smoothed(f_, kernel(x.size()), x);
+    if (std::isfinite(split.value.value)) return split.value;
+    // An envelope is finite: w was rounded out of the domain of f, or not found.
+    const bool known = split.v.size() == x.size();
+    return settled_value({infinity, infinity}, known ? std::optional(split.v) : std::nullopt, conjugate(), x);
+  }
   std::optional<Vector> subgradient(const Vector& x) const override {
     return slope_of_smoothing(f_, kernel(x.size()), x);
   }

@@ -151,12 +151,15 @@ class InfConvolution : public Operation {
     return found.size() == x.size() && found.allFinite() ? found : x;
   }
   /// f(w) + g(x - w) by g's own formula: of a g moved far the terms of q are large, and cancel. It is above
-  /// the minimum by no more than the square of what w is off by. None where the prox of f gave up.
+  /// the minimum by no more than the square of what w is off by. None where the prox of f gave up,
+  /// or w was rounded out of its domain: f □ q is finite.
   static std::optional<Value> value_of_smoothing(const Smoothing& of, const Vector& x) {
     const Smoothed split = smoothed(of.f, of.q, x);
     if (split.w.size() != x.size()) return std::nullopt;
     const double size = length_of(x) + length_of(split.w);
-    return sum_of(sum_of(of.f.evaluate(split.w), value_near(of.g, difference(x, split.w), size)),
+    const Value of_f = of.f.evaluate(split.w);
+    if (!std::isfinite(of_f.value)) return std::nullopt;
+    return sum_of(sum_of(of_f, value_near(of.g, difference(x, split.w), size)),
                   Value{0, std::max(split.above, split.off * split.off)});
   }
 

@@ -84,3 +84,23 @@ TEST_CASE(
     CHECK(g.error == 0);
   }
 }
+
+TEST_CASE("an envelope is finite where the prox is nearer than a rounding to the end of the domain") {
+  // ½|v|² less what the root of 1e-20 is: at most 1e-20 sqrt(2|v|).
+  const convex::Function g =
+      function("sum(precompose(scale(negative_power(0.5), 1e-20), [[1,1]]), squared_norm2())", 2).conjugate();
+  for (const Vector& v : {Vector{{1, 0.5}}, Vector{{1, 1}}, Vector{{-1, 1}}, Vector{{3, -1}}}) {
+    const Value found = g.evaluate(v);
+    CAPTURE(v.transpose());
+    CHECK(std::abs(found.value - 0.5 * v.squaredNorm()) <= found.error + 1e-19);
+  }
+  const Value off =
+      function(
+          "sum(separable(inverse_power(0.5), 1, hinge(), 1), dilate(scale(max_affine("
+          "[[3,-1.75],[3,-2.75]], [-64.4375,-77.4375]), 1.22e-10), 0.25), squared_norm2(9.54e11))",
+          2)
+          .conjugate()
+          .evaluate(Vector{{3458249999999.9277, -3100500000001}});
+  CHECK(std::abs(off.value - 11306390624998.2128) <= off.error);
+  CHECK(off.error <= 1e-8 * off.value);
+}
