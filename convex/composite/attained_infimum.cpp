@@ -144,7 +144,7 @@ GraphForm with_attained_infimum(GraphForm f) {
       if (const int side = sign(dot(entry.u, d)); side != 0) moved[entry.term][entry.row] = side;
     Vector whole = Vector::Zero(f.n + f.k);
     for (Index i = 0; i < f.k; ++i) whole[f.n + i] = nearest_double(d[static_cast<std::size_t>(i)]);
-    GraphForm made{f.n, f.k, {}, f.constant, f.by_slope};
+    GraphForm made{f.n, f.k, {}, f.constant, f.by_slope, f.by_point};
     bool changed = false;
     for (std::size_t j = 0; j < f.terms.size(); ++j) {
       const GraphTerm& term = f.terms[j];

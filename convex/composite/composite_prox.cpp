@@ -121,6 +121,22 @@ bool hides_heights(const SaddleProblem& problem, const SaddlePoint& point) {
   return unit > far_above * std::max(1.0, largest * unit);
 }
 
+/// What the multipliers of heights miss of each other moves the slope of each part by as much of it: in a
+/// unit far below the slopes that is no rounding where it would be one of a multiplier.
+double moved_by_heights(const SaddleProblem& problem, const SaddlePoint& point) {
+  const double missed = problem.k > 0 ? point.rho.tail(problem.k).cwiseAbs().maxCoeff() : 0;
+  double most = 0;
+  for (const SaddleTerm& term : problem.terms) {
+    const auto normal = point.y.segment(term.first, term.rows);
+    const double height = std::abs(normal[term.rows - 1]);
+    if (!(height > missed) || !parts_of_epigraph(*term.f)) continue;
+    const Vector slope =
+        problem.M.middleRows(term.first, term.rows - 1).transpose() * normal.head(term.rows - 1);
+    most = std::max(most, missed / height * problem.W.dual_norm(slope.head(problem.n)));
+  }
+  return most;
+}
+
 }  // namespace
 
 Prox prox(const GraphForm& given, const Vector& z, const Metric& W, const Look& look) {
@@ -152,7 +168,8 @@ Prox prox(const GraphForm& given, const Vector& z, const Metric& W, const Look& 
     found.error_bound = infinity;
     return found;
   }
-  const SaddleError error = saddle_error(problem, point, ErrorOf::answer);
+  SaddleError error = saddle_error(problem, point, ErrorOf::answer);
+  if (f.by_slope) error.bound += moved_by_heights(problem, point);
   // Where the own formulas feel the rounding of u less than D(t - u) does, v is theirs.
   constexpr double worse = 2;
   const double of_own = W.dual_norm(metric_difference(W, found.x, z) + found.v);

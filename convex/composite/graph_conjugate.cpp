@@ -36,7 +36,7 @@ GraphForm conjugate(const GraphForm& f) {
   }
   // ξ = (y, p). The left sides of the equation, (y, 0) - sum M_jᵀ p_j = shift.
   const Index columns = f.n + size;
-  GraphForm dual{f.n, size, {}, constant, f.by_slope};
+  GraphForm dual{f.n, size, {}, constant, f.by_point, f.by_slope};
   SparseMatrix left(f.n + f.k, columns);
   {
     std::vector<Eigen::Triplet<double>> entries;

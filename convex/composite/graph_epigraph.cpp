@@ -57,7 +57,7 @@ std::optional<SplitQuadratic> split_quadratic(const Atom& f, Index rows) {
 
 /// The form with each quadratic term as half a square of independent rows, and linear terms.
 GraphForm with_half_squares(const GraphForm& f) {
-  GraphForm made{f.n, f.k, {}, f.constant, f.by_slope};
+  GraphForm made{f.n, f.k, {}, f.constant, f.by_slope, f.by_point};
   for (const GraphTerm& term : f.terms) {
     const auto parts = split_quadratic(*term.f, term.M.rows());
     if (!parts) {
@@ -82,7 +82,7 @@ GraphForm epigraph(const GraphForm& given, double slope) {
   const Index n = f.n + 1, own = std::max<Index>(1, static_cast<Index>(heights.size())) - 1;
   const Index columns = n + f.k + own;
   // ξ = (x, t, w, heights of all such terms but the first).
-  GraphForm set{n, f.k + own, {}, 0, true};
+  GraphForm set{n, f.k + own, {}, 0, true, f.by_point};
   const SparseMatrix place = placed(columns, selection(0, f.n, columns), n, f.k);
   // What is left of t for the first: t - constant - linear terms - the other heights.
   SparseMatrix rest = selection(f.n, 1, columns);
@@ -136,7 +136,7 @@ GraphForm pointwise_max(std::span<const GraphForm> f, double slope) {
 GraphForm perspective(const GraphForm& given) {
   const GraphForm f = with_half_squares(given);
   const Index n = f.n + 1, columns = n + f.k;
-  GraphForm cone{n, f.k, {}, 0, f.by_slope};
+  GraphForm cone{n, f.k, {}, 0, f.by_slope, f.by_point};
   const SparseMatrix place = placed(columns, selection(0, f.n, columns), n, f.k);
   const SparseMatrix s = selection(f.n, 1, columns);
   SparseMatrix slope = f.constant * s;

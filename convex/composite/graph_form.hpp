@@ -24,6 +24,7 @@ struct GraphForm {
   std::vector<GraphTerm> terms;
   double constant = 0;
   bool by_slope = false;  ///< heights in it are measured in units of a slope
+  bool by_point = false;  ///< and those of functions of a subgradient in units of a point
 };
 
 }  // namespace convex::inline composite

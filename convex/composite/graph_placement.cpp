@@ -29,6 +29,7 @@ void add_terms(GraphForm& sum, const GraphForm& f, const SparseMatrix& place, co
         {term.f, term.scale, SparseMatrix(term.M * place), term.b + term.M.leftCols(f.n) * b});
   sum.constant += f.constant;
   sum.by_slope = sum.by_slope || f.by_slope;
+  sum.by_point = sum.by_point || f.by_point;
 }
 
 std::optional<QuadraticForm> linear_form(const Atom& f, Index n) {

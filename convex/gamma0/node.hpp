@@ -58,6 +58,8 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   /// f on Rⁿ as a sum of atoms of affine maps, minimised over auxiliary variables: what the iterative prox
   /// and every operation without a formula work on. None for a function known by value and prox alone.
   /// slope: of the size of a subgradient where the form is used, a power of 2; heights are measured in it.
+  /// Less than 0: minus the size of the point, which is a slope of the functions that f has the conjugates
+  /// of.
   virtual std::optional<GraphForm> graph(Index n, double slope = 1) const;
 };
 

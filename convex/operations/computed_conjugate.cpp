@@ -48,8 +48,9 @@ class ComputedConjugate : public Operation {
   }
   double recession(const Vector& d) const override { return f_.node().domain_support(d); }
   double domain_support(const Vector& v) const override { return f_.node().recession(v); }
-  std::optional<GraphForm> graph(Index n, double) const override {
-    const auto form = f_.node().graph(n);
+  /// A point of f* is a slope of f.
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto form = f_.node().graph(n, -slope);
     if (!form) return std::nullopt;
     return convex::conjugate(*form);
   }

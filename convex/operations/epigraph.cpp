@@ -139,7 +139,7 @@ class Epigraph : public Lifted {
     if (f_.facts().indicator) return with_last_not_negative(f_, n).node().graph(n, slope);
     const auto form = part_graph(n, slope);
     if (!form) return std::nullopt;
-    return convex::epigraph(*form, slope);
+    return convex::epigraph(*form, unit_of_slope(slope));
   }
 
  protected:

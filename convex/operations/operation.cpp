@@ -79,6 +79,9 @@ std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metri
   return whole;
 }
 
+/// A unit of heights so many times above the slopes, or below them, hides what misses them.
+constexpr double far_off = 1024;
+
 double unit_of_slope(double slope) {
   return slope > 0 && std::isfinite(slope) ? std::exp2(std::floor(std::log2(slope))) : 1;
 }
@@ -86,23 +89,25 @@ double unit_of_slope(double slope) {
 std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W,
                                    const Look& look) {
   constexpr int most_slopes = 3;
-  constexpr double far_above = 1024;
   std::optional<Prox> best;
   double slope = unit_of_slope(first);
   for (int pass = 0; pass < most_slopes; ++pass) {
     const auto form = f.graph(z.size(), slope);
     if (!form) return std::nullopt;
     Prox found = convex::prox(*form, z, W, look);
-    const double actual = f.slope_of(found.v);
-    const bool hidden = slope > far_above * std::max(actual, 1.0);
+    const bool by_point = form->by_point && !form->by_slope;
+    const double actual = by_point ? found.x.norm() : f.slope_of(found.v);
+    // In a unit far above the slopes a miss in a height is rounding and moves x. Points have no normals of
+    // sets in them: in a unit far below them the multipliers of heights are hidden too.
+    const double unit = std::abs(slope);
+    const bool hidden = unit > far_off * std::max(actual, 1.0) || (by_point && actual > far_off * unit);
     const bool better = !best || found.error_bound < best->error_bound;
     if (better && (!hidden || !best)) best = std::move(found);
     if (!hidden && (best->status == Status::solved || best->status == Status::infeasible)) break;
-    const double next = unit_of_slope(actual);
-    if (next == slope) break;
+    const double next = by_point ? -unit_of_slope(actual) : unit_of_slope(actual);
+    if (std::abs(next) == unit || !(form->by_slope || form->by_point)) break;
     slope = next;
-    if (!form->by_slope) break;
-    if (hidden) best.reset();
+    if (hidden && pass + 1 < most_slopes) best.reset();
   }
   return best;
 }
@@ -142,11 +147,18 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
   if (const auto form = graph(x.size())) {
     GraphValue found = convex::evaluate(*form, at);
     // Heights in units of the slope there may show what others hide.
-    const double unit = found.v ? unit_of_slope(found.v->norm()) : 1;
-    if (form->by_slope && found.status != Status::solved && unit != 1) {
-      GraphValue other = convex::evaluate(*graph(x.size(), unit), at);
+    const bool by_point = form->by_point && !form->by_slope;
+    const double slope = by_point ? at.norm() : found.v ? found.v->norm() : 1, unit = unit_of_slope(slope);
+    const bool open = form->by_slope && found.status != Status::solved && unit != 1;
+    if (open || (by_point && unit > far_off)) {
+      GraphValue other = convex::evaluate(*graph(x.size(), by_point ? -unit : unit), at);
+      const double apart = std::abs(other.value - found.value);
+      const double open_in_both = value_of(other).error + value_of(found).error;
       if (other.status == Status::solved || value_of(other).error < value_of(found).error)
         found = std::move(other);
+      // Two units that tell two values say that one of them hides something.
+      if (by_point && std::isfinite(apart) && apart > open_in_both)
+        found.error_bound = std::max(found.error_bound, apart);
     }
     Value value = multiple_of(size, value_of(found));
     // Tiny numbers may look apart to a program.

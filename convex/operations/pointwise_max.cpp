@@ -111,7 +111,7 @@ class PointwiseMax : public Operation {
   std::optional<GraphForm> graph(Index n, double slope) const override {
     const auto forms = graphs(parts_, n, slope);
     if (!forms) return std::nullopt;
-    return convex::pointwise_max(*forms, slope);
+    return convex::pointwise_max(*forms, unit_of_slope(slope));
   }
 
   std::vector<Function> maximum_of() const override { return parts_; }

@@ -90,7 +90,9 @@ class Scale : public Operation {
     return linear_quadratic::scale(linear_quadratic::dilate(*form, rho_), alpha_);
   }
   std::optional<GraphForm> graph(Index n, double slope) const override {
-    const auto form = f_.node().graph(n, unit_of_slope(slope * std::abs(rho_) / alpha_));
+    const double of_part =
+        slope > 0 ? unit_of_slope(slope * std::abs(rho_) / alpha_) : -unit_of_slope(-slope / std::abs(rho_));
+    const auto form = f_.node().graph(n, of_part);
     if (!form) return std::nullopt;
     SparseMatrix shrink(n, n);
     shrink.setIdentity();
