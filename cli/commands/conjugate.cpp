@@ -110,7 +110,12 @@ void prove_value(const ConjugateQuestion& question, const FunctionOptions& optio
           "out, or ask for --certify");
     answer.value->value = proof.exact ? nearest_double(*proof.exact) : proof.interval.low;
   }
-  if (proof.level != convex::ProofLevel::none) answer.value->error = proof.error_of(answer.value->value);
+  if (proof.level == convex::ProofLevel::none) return;
+  const double middle = proof.interval.low + 0.5 * (proof.interval.high - proof.interval.low);
+  answer.value->error = proof.error_of(answer.value->value);
+  // Where doubles did not find the value, or missed it, the proof's is told.
+  if (std::isfinite(middle) && 2 * proof.error_of(middle) < answer.value->error)
+    answer.value = {middle, proof.error_of(middle)};
 }
 
 void write_proof(JsonWriter& json, const ConjugateAnswer& answer) {
@@ -148,8 +153,9 @@ std::string conjugate_json(const ConjugateQuestion& question, const ConjugateAns
 std::string missing_accuracy(const convex::Function& g, const convex::Value& value) {
   if (std::isfinite(value.error)) return fmt::format("its error may be {:.1e}", value.error);
   if (std::isfinite(value.value)) return "nothing is known of its error";
-  return std::string(g.facts().finite ? "g is finite here, but it" : "it is infinite, or it") +
-         " or a number on the way is beyond the largest double, 1.8e308; scale f or y";
+  return std::string(g.facts().finite ? "g is finite here, but its value" : "whether it is infinite") +
+         " was not found within the work of a question, or a number on the way is beyond the largest double, "
+         "1.8e308; ask for --certify, or scale f or y";
 }
 
 std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAnswer& answer) {

@@ -147,18 +147,11 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
   if (const auto form = graph(x.size())) {
     GraphValue found = convex::evaluate(*form, at);
     // Heights in units of the slope there may show what others hide.
-    const bool by_point = form->by_point && !form->by_slope;
-    const double slope = by_point ? at.norm() : found.v ? found.v->norm() : 1, unit = unit_of_slope(slope);
-    const bool open = form->by_slope && found.status != Status::solved && unit != 1;
-    if (open || (by_point && unit > far_off)) {
-      GraphValue other = convex::evaluate(*graph(x.size(), by_point ? -unit : unit), at);
-      const double apart = std::abs(other.value - found.value);
-      const double open_in_both = value_of(other).error + value_of(found).error;
+    const double unit = found.v ? unit_of_slope(found.v->norm()) : 1;
+    if (form->by_slope && found.status != Status::solved && unit != 1) {
+      GraphValue other = convex::evaluate(*graph(x.size(), unit), at);
       if (other.status == Status::solved || value_of(other).error < value_of(found).error)
         found = std::move(other);
-      // Two units that tell two values say that one of them hides something.
-      if (by_point && std::isfinite(apart) && apart > open_in_both)
-        found.error_bound = std::max(found.error_bound, apart);
     }
     Value value = multiple_of(size, value_of(found));
     // Tiny numbers may look apart to a program.
