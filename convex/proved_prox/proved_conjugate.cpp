@@ -94,13 +94,25 @@ std::optional<Value> quick_value(const ExactProgram& f, const Fractions& x) {
   return Value{nearest, std::isinf(nearest) ? INFINITY : 0};
 }
 
-/// What the terms may round at xi: their numbers are made in doubles, those of a curved function that has one
-/// point too.
+/// Whether f has a bounded domain, or does not grow: no value of it is large because its point is far out.
+bool is_near(const Atom& f, Index n) {
+  for (Index i = 0; i < n; ++i)
+    for (const double side : {-1.0, 1.0}) {
+      const Vector d = side * Vector::Unit(n, i);
+      if (!std::isfinite(f.domain_support(d)) && f.recession(d) != 0) return false;
+    }
+  return true;
+}
+
+/// What terms may round at xi: their numbers are made in doubles, that of a curved function that has one
+/// point too. Of those that grow far out fractions know more than the doubles of a value.
 double roundings_of_terms(const GraphForm& f, const Vector& xi) {
   double sum = 0;
-  for (const GraphTerm& term : f.terms)
+  for (const GraphTerm& term : f.terms) {
+    if (!is_near(*term.f, term.M.rows())) continue;
     if (const Value value = term.f->evaluate(term.M * xi + term.b); std::isfinite(value.error))
       sum += term.scale * value.error;
+  }
   return sum;
 }
 

@@ -7,6 +7,9 @@
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/exact/ball.hpp"
+#include "convex/exact/fraction_arithmetic.hpp"
+#include "convex/proved_prox/pair_of_call.hpp"
+#include "convex/proved_prox/proved_metric.hpp"
 
 using namespace convex;
 
@@ -61,6 +64,24 @@ TEST_CASE("the conjugate of a sum is held between a point and the covectors that
     CHECK(value.interval.high >= known.value - rounding);
     CHECK(value.interval.high - value.interval.low <= 2 * rounding);
   }
+}
+
+TEST_CASE("a conjugate is held between a point and a split of the covector however far off the point is") {
+  if (!Ball::why_none().empty()) return;
+  for (const Known& known : known_values)
+    for (const double off : {0.0, 0.125, -0.25}) {
+      const Fractions v = fractions(known.y);
+      const Vector x = Vector::Constant(known.y.size(), 0.5 + off);
+      const PairSearch found =
+          pair_at_covector(cli::parse_call(known.f, "f"), identity_gram(v.size()), fractions(x), v);
+      if (!found.pair) continue;
+      CAPTURE(known.f);
+      CAPTURE(off);
+      const double rounding = 4 * unit_roundoff * std::max(1.0, std::abs(known.value));
+      CHECK(found.pair->v == v);
+      CHECK(nearest_double(found.pair->f_v.high) >= known.value - rounding);
+      CHECK(nearest_double(dot(found.pair->x, v) - found.pair->f_x.high) <= known.value + rounding);
+    }
 }
 
 TEST_CASE("of a supremum that no point attains, or that is infinite, a proof says that it has none") {
