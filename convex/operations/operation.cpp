@@ -79,9 +79,6 @@ std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metri
   return whole;
 }
 
-/// A unit of heights so many times above the slopes, or below them, hides what misses them.
-constexpr double far_off = 1024;
-
 double unit_of_slope(double slope) {
   return slope > 0 && std::isfinite(slope) ? std::exp2(std::floor(std::log2(slope))) : 1;
 }
@@ -89,6 +86,7 @@ double unit_of_slope(double slope) {
 std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W,
                                    const Look& look) {
   constexpr int most_slopes = 3;
+  constexpr double far_off = 1024;  // so far above the slopes, or below them, a unit hides what is missed
   std::optional<Prox> best;
   double slope = unit_of_slope(first);
   for (int pass = 0; pass < most_slopes; ++pass) {
