@@ -177,10 +177,11 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
 
   MOREAU_INLINE void whole_sums(Index n, const double* X, const double* s_of_X, const double* U,
                                 const double* s, Index count, const Index* row, const double* length,
-                                const double* least, double close, double* c, double* sizes, double* rest,
-                                double* load) {
+                                const double* least, double close, double* c, Index* terms, double* sizes,
+                                double* rest, double* load) {
     constexpr double shift = 0x1.8p52, infinite = __builtin_inf();
     Pack sum = P::plus(Pack{}, 1), off{}, loads = P::minus(Pack{}, P::load(s_of_X));
+    Index used = 0;  // of the rows, which are few where others are sums of some
     for (Index j = 0; j < count; ++j) {
       const Pack guess = P::load(c + 8 * j),
                  beyond = P::minus(P::times(P::size(guess), length[row[j]]), P::load(least)),
@@ -190,7 +191,9 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
       off = P::larger(off, P::minus(P::size(P::minus(counted, whole)), allowed));
       sum = P::plus(sum, P::size(whole));
       P::add_product(loads, whole, s[row[j]]);
-      P::store(c + 8 * j, whole);
+      P::store(c + 8 * used, whole);
+      terms[used] = row[j];
+      used += !(P::largest(P::size(whole)) == 0);
     }
     P::store(sizes, P::plus(sum, P::where_larger(off, 0, P::plus(Pack{}, infinite), 0)));
     P::store(load, loads);
@@ -199,17 +202,18 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
       constexpr int entries = decltype(together)::value;
       Pack missing[entries];
       P::clear(missing);
-      for (Index j = 0; j < count; ++j) {
-        const double* const u = U + row[j] * n + i;
+      for (Index j = 0; j < used; ++j) {
+        const double* const u = U + terms[j] * n + i;
         const Pack whole = P::load(c + 8 * j);
-#pragma GCC unroll 4
+#pragma GCC unroll 8
         for (int r = 0; r < entries; ++r) P::add_product(missing[r], whole, u[r]);
       }
-#pragma GCC unroll 4
+#pragma GCC unroll 8
       for (int r = 0; r < entries; ++r)
         left = P::plus(left, P::size(P::minus(missing[r], P::load(X + 8 * (i + r)))));
     };
     Index i = 0;
+    for (; i + 8 <= n && W == 8; i += 8) look(i, std::integral_constant<int, 8>());
     for (; i + 4 <= n; i += 4) look(i, std::integral_constant<int, 4>());
     for (; i < n; ++i) look(i, std::integral_constant<int, 1>());
     P::store(rest, left);
@@ -237,37 +241,46 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
     return P::largest(most) == 0;
   }
 
-  MOREAU_INLINE double largest_size(Index n, const double* x) {
-    Pack most{};
+  /// The largest of f(x_i) >= 0 over as many whole packs as there are; several at a time, which do not wait
+  /// for each other.
+  template <class F>
+  MOREAU_INLINE Pack largest_over_packs(Index n, const double* x, F f) {
+    Pack most[4];
+    P::clear(most);
     Index i = 0;
-    for (; i + 8 <= n; i += 8) most = P::larger(most, P::size(P::load(x + i)));
-    double found = P::largest(most);
-    for (; i < n; ++i) found = found > std::abs(x[i]) ? found : std::abs(x[i]);
+    for (; i + 32 <= n; i += 32)
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) most[k] = P::larger(most[k], f(P::load(x + i + 8 * k)));
+    for (; i + 8 <= n; i += 8) most[0] = P::larger(most[0], f(P::load(x + i)));
+    return P::larger(P::larger(most[0], most[1]), P::larger(most[2], most[3]));
+  }
+
+  MOREAU_INLINE double largest_size(Index n, const double* x) {
+    double found = P::largest(largest_over_packs(
+        n, x, [](const Pack& now) __attribute__((always_inline)) { return P::size(now); }));
+    for (Index i = n / 8 * 8; i < n; ++i) found = found > std::abs(x[i]) ? found : std::abs(x[i]);
     return found;
   }
 
   MOREAU_INLINE bool is_on_grid(Index n, const double* x, double shift) {
-    Pack most{};
-    Index i = 0;
-    for (; i + 8 <= n; i += 8) {
-      const Pack now = P::load(x + i);
-      most = P::larger(most, P::size(P::minus(P::plus(P::plus(now, shift), -shift), now)));
-    }
-    bool all = P::largest(most) == 0;
-    for (; i < n && all; ++i) all = (x[i] + shift) - shift == x[i];
+    bool all = P::largest(largest_over_packs(
+                   n, x, [&](const Pack& now) __attribute__((always_inline)) {
+                     return P::size(P::minus(P::plus(P::plus(now, shift), -shift), now));
+                   })) == 0;
+    for (Index i = n / 8 * 8; i < n && all; ++i) all = (x[i] + shift) - shift == x[i];
     return all;
   }
 
   /// Zero times a number that is not finite is not zero.
   MOREAU_INLINE bool is_finite(Index n, const double* x) {
-    Pack even{}, odd{};
+    Pack sum[4];
+    P::clear(sum);
     Index i = 0;
-    for (; i + 16 <= n; i += 16) {
-      P::add_product(even, P::load(x + i), 0);
-      P::add_product(odd, P::load(x + i + 8), 0);
-    }
-    for (; i < n; i += 8) P::add_product(even, P::load_before(x + i, x + n), 0);
-    return P::total(P::plus(even, odd)) == 0;
+    for (; i + 32 <= n; i += 32)
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) P::add_product(sum[k], P::load(x + i + 8 * k), 0);
+    for (; i < n; i += 8) P::add_product(sum[0], P::load_before(x + i, x + n), 0);
+    return P::total(P::plus(P::plus(sum[0], sum[1]), P::plus(sum[2], sum[3]))) == 0;
   }
 
   /// By tiles, for the rows of a large matrix are far apart in memory. The difference of numbers that are not

@@ -51,10 +51,12 @@ struct RowKernels {
   /// Entry i of eight rows of n <= 4, n registers of eight.
   template <int n, int i, std::size_t... k>
   MOREAU_INLINE Part column(const Part (&u)[n], std::index_sequence<k...>) {
-    constexpr typename P::Wholes inside{(k * n + i) % 16 ...}, join{(k * n + i < 16 ? k : 8 + k)...};
+    constexpr typename P::Wholes inside{(k * n + i) % 16 ...}, join{(k * n + i < 16 ? k : 8 + k)...},
+        beside_last{(k * n + i < 16 ? k : k * n + i - 8)...};
     if constexpr (n == 1) return u[0];
     const Part first = __builtin_shuffle(u[0], u[n > 1], inside);
     if constexpr (n <= 2) return first;
+    if constexpr (n == 3) return __builtin_shuffle(first, u[n - 1], beside_last);
     return __builtin_shuffle(first, __builtin_shuffle(u[n > 2 ? 2 : 0], u[n - 1], inside), join);
   }
   template <int n, std::size_t... i>

@@ -165,6 +165,7 @@ struct TriangleKernels : Packs<W, Fused> {
   MOREAU_INLINE void forward_packs(Index n, Index ld, const double* T, const double* inverse, double* X,
                                    Index apart) {
     Index i = 0;
+    for (; i + 8 <= n && W == 8 && count == 1; i += 8) forward_rows<8, count>(i, ld, T, inverse, X, apart);
     for (; i + 4 <= n; i += 4) forward_rows<4, count>(i, ld, T, inverse, X, apart);
     if (n - i == 1) forward_rows<1, count>(i, ld, T, inverse, X, apart);
     if (n - i == 2) forward_rows<2, count>(i, ld, T, inverse, X, apart);
@@ -185,7 +186,7 @@ struct TriangleKernels : Packs<W, Fused> {
       for (int r = 0; r < rows * count; ++r)
         P::subtract_product(sum[r], x[r % count], row[r / count * ld + j]);
     }
-#pragma GCC unroll 4
+#pragma GCC unroll 8
     for (int r = 0; r < rows; ++r)
 #pragma GCC unroll 2
       for (int k = 0; k < count; ++k) {

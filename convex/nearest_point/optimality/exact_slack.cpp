@@ -165,7 +165,7 @@ void SlackOnEdge::slacks(std::span<const Index> rows, const double* X, const Ind
     for (Index k = 0; k < 8 * count; ++k) whole[k] = many_denominators * coefficients[k];
     for (Index i = 0; i < 8 * n; ++i) all[i] = many_denominators * X[i];
     dense_kernels().whole_sums(n, all, s, problem_.U.dense().data(), problem_.s.data(), count, held,
-                               row_scale_, least, close, whole, size, rest, load);
+                               row_scale_, least, close, whole, rows_.data(), size, rest, load);
   }
   for (std::size_t l = 0; l < rows.size(); ++l) {
     const bool is_whole = size[l] + many_denominators <= most_terms;

@@ -217,6 +217,7 @@ void FactoredRows::find_dual_rows() {
   const Index k = p_.size, n = p_.n;
   if (dual_count_ == k && std::equal(dual_of_, dual_of_ + k, p_.rows)) return;
   std::copy_n(p_.rows, dual_count_ = k, dual_of_);
+  are_solved_ = false;
   for (Index first = 0; first < k; first += 8) {
     double* const into = dual_ + first * n;
     for (Index l = 0; l < 8; ++l) {
@@ -228,11 +229,31 @@ void FactoredRows::find_dual_rows() {
   }
 }
 
-void FactoredRows::combine(std::span<const Index>) {
-  const Index k = p_.size;
+/// dual_ := (VᵀV)⁻¹ of these: what gives the coefficients of a row by products alone.
+void FactoredRows::solve_dual_rows() {
+  const Index k = p_.size, n = p_.n;
+  double* const X = p_.coefficients;  // of eight coordinates at a time
+  const auto each = [&](Index first, auto work) {
+    const Index columns = std::min<Index>(8, n - first);
+    for (Index j = 0; j < k; j += 8)
+      for (Index c = 0; c < columns; ++c)
+        for (Index l = 0; l < 8; ++l) work(X[8 * (j + l) + c], dual_[j * n + 8 * (first + c) + l]);
+  };
+  for (Index first = 0; first < n; first += 8) {
+    fill_packs(8 * padded(k), 0, X);
+    each(first, [](double& x, const double& dual) { x = dual; });
+    set_->solve_pack(X);
+    each(first, [](const double& x, double& dual) { dual = x; });
+  }
+  are_solved_ = true;
+}
+
+void FactoredRows::combine(std::span<const Index>, Index in_all) {
   find_dual_rows();
-  for (Index j = 0; j < k; j += 8) kernels_.gram(p_.n, p_.pack, dual_ + j * p_.n, p_.coefficients + 8 * j, 8);
-  set_->solve_pack(p_.coefficients);
+  if (!are_solved_ && in_all > p_.n) solve_dual_rows();
+  for (Index j = 0; j < p_.size; j += 8)
+    kernels_.gram(p_.n, p_.pack, dual_ + j * p_.n, p_.coefficients + 8 * j, 8);
+  if (!are_solved_) set_->solve_pack(p_.coefficients);
 }
 
 double FactoredRows::raise(std::span<const Index> rows) {

@@ -23,7 +23,7 @@ class FactoredRows final : public GramWorkingSet {
   void measure_balance() override;
   bool look_at(std::span<const Index> rows) override;
   bool are_independent(std::span<const Index> rows, double part) override;
-  void combine(std::span<const Index> rows) override;
+  void combine(std::span<const Index> rows, Index in_all) override;
   double raise(std::span<const Index> rows) override;
   std::vector<Index> one_sided_working_set() const override { return set_->one_sided_working_set(); }
   std::optional<Vector> contradiction() const override { return set_->contradiction(); }
@@ -36,6 +36,7 @@ class FactoredRows final : public GramWorkingSet {
   void find_residual(bool is_first);
   void rest_loads(bool is_first, bool with_outside);
   void find_dual_rows();
+  void solve_dual_rows();
 
   const NearestPointProblem& problem_;
   const DenseKernels& kernels_;
@@ -46,6 +47,7 @@ class FactoredRows final : public GramWorkingSet {
   double* dual_;
   Index *fresh_, *dual_of_;  // dual_of_: the rows that dual_ is of, dual_count_
   Index dual_count_ = 0;
+  bool are_solved_ = false;
 };
 
 }  // namespace convex::inline pivoting

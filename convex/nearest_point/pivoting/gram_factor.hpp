@@ -71,6 +71,7 @@ class GramFactor {
   double pivot_of_plain_elimination(Index j) const { return L_[j * (ld_ + 1)]; }
   void eliminate_plainly(Index j);
   void pad(Index from);
+  void mirror(Index from);
 
   const GramRows& rows_;
   const DenseKernels& kernels_;

@@ -61,7 +61,8 @@ bool GramPivoting::pivot_by_single_steps() {
 Index GramPivoting::skip_parallel_rows(Index count) {
   const double* U = problem_.U.dense().data();
   const auto depth = [&](Index a) { return slack_[a] / row_scale_[a]; };
-  std::sort(list_, list_ + count, [&](Index a, Index b) { return depth(a) < depth(b); });
+  std::sort(list_, list_ + count,
+            [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
   Index kept = 0;
   for (Index k = 0; k < count; ++k) {
     bool repeats = false;
@@ -169,15 +170,14 @@ bool GramPivoting::raise(Index a) {
     double partial = infinity;
     Index blocking = -1;
     for (Index j = 0; j < set_.size(); ++j) {
+      const double above = std::max(0.0, lambda_[set_.place(j)]);
+      if (!((r[j] > 0) & (above < partial * r[j]))) continue;
       // r_j ||u_j|| is no more than rounding beside ||u_a||
-      if (!(r[j] > 0) || state_[row(j)] != held ||
+      if (state_[row(j)] != held ||
           !(r[j] * r[j] * rows_.square(set_.place(j)) > zero_coefficient * zero_coefficient * square))
         continue;
-      const double ratio = std::max(0.0, lambda_[set_.place(j)]) / r[j];
-      if (ratio < partial) {
-        partial = ratio;
-        blocking = j;
-      }
+      partial = above / r[j];
+      blocking = j;
     }
     if (full <= partial && !dependent) {
       for (Index j = 0; j < set_.size(); ++j) lambda_[set_.place(j)] -= full * r[j];

@@ -195,7 +195,7 @@ Index GramSolve::leave_sums_of_working_set(Index count) {
     const Index some = std::min<Index>(8, count - first);
     const std::span<const Index> rows = close(first, first + some);
     dense_kernels().side_by_side(p_.n, p_.all, p_.U, rows.data(), some, p_.pack);
-    set_.combine(rows);
+    set_.combine(rows, count);
     std::optional<double> on_edge[8];
     edge_->slacks(rows, p_.pack, p_.rows, p_.size, p_.coefficients, on_edge);
     for (Index l = 0; l < some; ++l) {

@@ -44,8 +44,8 @@ class GramWorkingSet {
   /// held.
   virtual bool are_independent(std::span<const Index> rows, double part) = 0;
   /// Up to eight rows, side by side in `pack`, as if they were combinations of those held: the coefficients
-  /// into `coefficients`, eight for each row of the working set.
-  virtual void combine(std::span<const Index> rows) = 0;
+  /// into `coefficients`, eight for each row of the working set. in_all: how many such rows are asked for.
+  virtual void combine(std::span<const Index> rows, Index in_all) = 0;
   /// dq: a motion along the working set that raises the others given, as far as they are independent. Its
   /// ||·||_A; 0 where none is found.
   virtual double raise(std::span<const Index> rows) = 0;

@@ -262,7 +262,7 @@ bool SweptRows::are_independent(std::span<const Index> rows, double part) {
 }
 
 /// Swept, the column of a row looked at has its coefficients.
-void SweptRows::combine(std::span<const Index> rows) {
+void SweptRows::combine(std::span<const Index> rows, Index) {
   const SmallTableau& t = tableau_;
   if (std::any_of(rows.begin(), rows.end(), [&](Index a) { return place(a) < 0; })) {
     find_dual_rows();

@@ -34,7 +34,7 @@ class SweptRows final : public GramWorkingSet {
   void measure_balance() override;
   bool look_at(std::span<const Index> rows) override;
   bool are_independent(std::span<const Index> rows, double part) override;
-  void combine(std::span<const Index> rows) override;
+  void combine(std::span<const Index> rows, Index in_all) override;
   double raise(std::span<const Index>) override { return 0; }
   std::vector<Index> one_sided_working_set() const override;
   std::optional<Vector> contradiction() const override;

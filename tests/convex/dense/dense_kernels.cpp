@@ -83,9 +83,11 @@ std::vector<double> outcome(const DenseKernels& kernels, const Data& data) {
   kernels.side_by_side(n, m, data.U.data(), data.rows.data(), std::min<Index>(8, count), X.data());
   keep(X);
   Vector c = Vector::LinSpaced(8 * count, -3, 5), found(24);
+  if (count > 1) c.segment(8, 8).setZero();  // a row that none is a sum of
+  std::vector<Index> terms(data.rows.size());
   kernels.whole_sums(n, X.data(), Vector(Vector::Ones(8)).data(), data.U.data(), data.s.data(), count,
                      data.rows.data(), Vector(Vector::Ones(m)).data(), Vector(Vector::Ones(8)).data(), 0.1,
-                     c.data(), found.data(), found.data() + 8, found.data() + 16);
+                     c.data(), terms.data(), found.data(), found.data() + 8, found.data() + 16);
   keep(c);
   keep(found);
   kernels.stationarity(n, data.A.data(), data.x.data(), m, data.U.data(),
