@@ -70,10 +70,9 @@ struct DenseKernels {
   void (*side_by_side)(Index n, Index m, const double* U, const Index* rows, Index count, double* X);
   /// Whether eight vectors side by side are sums of `count` rows of U with whole numbers as coefficients; c:
   /// eight for each row, guesses, of which these numbers are made, 0 where c_jk length_j <= least_k; those of
-  /// the rows with others than 0, `terms`, come first. size_k: 1
-  /// and the sum of their sizes, infinite where a guess is more than `close` off, as a part of the larger of
-  /// itself and 1. rest_k: Σ_i |Σ_j c_jk u_(row j)i - X_ki| and load_k: Σ_j c_jk s_(row j) - s_k, in
-  /// doubles.
+  /// the rows with others than 0, `terms`, come first. size_k: 1 and the sum of their sizes, infinite where a
+  /// guess is more than `close` off, as a part of the larger of itself and 1. In doubles, rest_k:
+  /// Σ_i |Σ_j c_jk u_(row j)i - X_ki|, and load_k: Σ_j c_jk s_(row j) - s_k.
   void (*whole_sums)(Index n, const double* X, const double* s_of_X, const double* U, const double* s,
                      Index count, const Index* rows, const double* length, const double* least, double close,
                      double* c, Index* terms, double* size, double* rest, double* load);
