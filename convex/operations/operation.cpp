@@ -50,6 +50,9 @@ constexpr double accuracy_of_a_program = 64 * unit_roundoff;
       ", which may be the rounding of the numbers written; move or widen one of them by as much");
 }
 
+/// Known to be +inf, not one that was not found.
+bool is_infinite(const Value& value) { return value.value == infinity && value.error == 0; }
+
 void take_better(std::optional<Prox>& best, Prox found) {
   if (!best || (found.x.size() > 0 && found.error_bound < best->error_bound)) best = std::move(found);
 }
@@ -187,7 +190,7 @@ Prox Operation::prox_by_all_ways(const Vector& z, const Metric& W, const Look& l
   if (WorkLimit::passed()) return *std::move(best);
   // Of a far z a program's x may lie outside by its rounding, where f rises without end, as 1/x at 0.
   const bool is_outside = z.size() == 1 && best->x.size() == 1 && is_settled(*best, z, W) &&
-                          !facts().piecewise_quadratic && value(best->x) == infinity;
+                          !facts().piecewise_quadratic && is_infinite(evaluate(best->x));
   if (is_outside || !is_settled(*best, z, W))
     if (auto other = other_prox(z, W, look)) {
       if (is_outside) best.reset();

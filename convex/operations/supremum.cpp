@@ -304,7 +304,8 @@ std::optional<Vector> maximiser(const Function& f, const Vector& v) {
 
 bool is_of_rounding(const Value& value) {
   constexpr double few = 64;
-  return std::isfinite(value.value) && value.error <= few * unit_roundoff * std::abs(value.value);
+  const double size = value.value == 0 ? small : std::abs(value.value);
+  return std::isfinite(value.value) && value.error <= few * unit_roundoff * size;
 }
 
 Value settled_value(const Value& by_program, const std::optional<Vector>& x, const Function& f,

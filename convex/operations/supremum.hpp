@@ -30,7 +30,7 @@ std::optional<Vector> maximiser(const Function& f, const Vector& v);
 /// to 1e12 times its first length? No proof: a reason to refuse a function, not a value.
 bool grows_without_end(const Function& f, const Vector& v);
 
-/// Is a value right to roundings of itself?
+/// Is a value right to roundings of itself, and one of 0 to far less than it is asked for?
 bool is_of_rounding(const Value&);
 
 /// The value of f* at v by a program that minimises, told closer where it may be: it is no more than `above`,

@@ -159,3 +159,17 @@ TEST_CASE("the supremum of a function that leaves the range of doubles far out i
   CHECK(std::abs(found.value - 7.72372253577232) <= found.error);
   CHECK(found.error <= 1e-5);
 }
+
+TEST_CASE("a conjugate is 0 between the slopes of a kink at which a power bends without bound") {
+  // max(-x, x²/2) + |x|^p/p + x²/2 >= v x for v in [-1, 0], with equality at 0.
+  for (const char* p : {"1.5", "1.75", "3"})
+    for (double v : {-0.3, -0.34375, -0.9}) {
+      CAPTURE(p);
+      CAPTURE(v);
+      const std::string f =
+          std::string("sum(pointwise_max(linear([-1]), squared_norm2()), power(") + p + "), squared_norm2())";
+      const Value found = samples::function(f.c_str(), 1).conjugate().evaluate(Vector::Constant(1, v));
+      CHECK(std::abs(found.value) <= found.error);
+      CHECK(found.error <= 1e-20);
+    }
+}
