@@ -189,8 +189,12 @@ Prox Operation::prox_by_all_ways(const Vector& z, const Metric& W, const Look& l
   if (!best) refuse(*this, "prox in this metric");
   if (WorkLimit::passed()) return *std::move(best);
   // Of a far z a program's x may lie outside by its rounding, where f rises without end, as 1/x at 0.
-  const bool is_outside = z.size() == 1 && best->x.size() == 1 && is_settled(*best, z, W) &&
-                          !facts().piecewise_quadratic && is_infinite(evaluate(best->x));
+  const bool is_outside = [&] {
+    if (z.size() != 1 || best->x.size() != 1 || !is_settled(*best, z, W) || facts().piecewise_quadratic)
+      return false;
+    const auto part = WorkLimit::half_of_the_rest();  // a least value is looked for to its last digit
+    return is_infinite(evaluate(best->x));
+  }();
   if (is_outside || !is_settled(*best, z, W))
     if (auto other = other_prox(z, W, look)) {
       if (is_outside) best.reset();
