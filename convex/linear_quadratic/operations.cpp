@@ -1,6 +1,9 @@
 #include "convex/linear_quadratic/operations.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "convex/double_double.hpp"
 #include "convex/linear_quadratic/placement.hpp"
@@ -18,21 +21,65 @@ Index total_auxiliaries(std::span<const LinearQuadratic> terms) {
 
 LinearQuadratic nothing(Index n, Index k) { return LinearQuadraticBuilder(n, k).finish(); }
 
-/// Do doubles hold the rows G(Ax + b) >= h as rows of x?
-bool rows_are_exact(const LinearQuadratic& f, const SparseMatrix& A, const Vector& b) {
-  for (Index row = 0; row < f.rows(); ++row) {
-    DoubleDoubleVector g(A.cols());
-    DoubleDouble h{f.h[row], 0};
-    for (SparseRows::InnerIterator entry(f.G, row); entry; ++entry) {
-      if (entry.col() >= f.n) continue;
-      h = add(h, negative(two_product(entry.value(), b[entry.col()])));
-      for (Index j = 0; j < A.cols(); ++j) {
-        const DoubleDouble sum = add(g[j], two_product(entry.value(), A.coeff(entry.col(), j)));
-        g.hi[j] = sum.hi;
-        g.lo[j] = sum.lo;
-      }
+using SparseEntries = std::vector<std::pair<Index, double>>;
+
+/// The entries of a row, or a column, in the first n variables.
+template <typename Iterator>
+SparseEntries entries_in_x(Iterator it, Index n) {
+  SparseEntries found;
+  for (; it; ++it)
+    if (it.index() < n) found.emplace_back(it.index(), it.value());
+  return found;
+}
+
+/// row·A, before rounding.
+DoubleDoubleVector product(const SparseEntries& row, const SparseRows& A) {
+  DoubleDoubleVector sum(A.cols());
+  for (const auto& [k, value] : row)
+    for (SparseRows::InnerIterator it(A, k); it; ++it) {
+      const DoubleDouble more = add(sum[it.col()], two_product(value, it.value()));
+      sum.hi[it.col()] = more.hi;
+      sum.lo[it.col()] = more.lo;
     }
-    if (h.lo != 0 || !g.lo.isZero(0)) return false;
+  return sum;
+}
+
+/// start + row·b, before rounding.
+DoubleDouble plus_product(double start, const SparseEntries& row, const Vector& b) {
+  DoubleDouble sum{start, 0};
+  for (const auto& [k, value] : row) sum = add(sum, two_product(value, b[k]));
+  return sum;
+}
+
+/// Do doubles hold the rows G(Ax + b) >= h as rows of x?
+bool rows_are_exact(const LinearQuadratic& f, const SparseRows& A, const Vector& b) {
+  for (Index row = 0; row < f.rows(); ++row) {
+    const SparseEntries entries = entries_in_x(SparseRows::InnerIterator(f.G, row), f.n);
+    if (plus_product(-f.h[row], entries, b).lo != 0 || !product(entries, A).lo.isZero(0)) return false;
+  }
+  return true;
+}
+
+/// Do doubles hold HA, AᵀHA, Hb + c and Aᵀ(Hb + c)?
+bool curvature_is_exact(const LinearQuadratic& f, const SparseMatrix& A, const SparseRows& rows_of_A,
+                        const Vector& b) {
+  Vector slope(f.variables());
+  std::vector<Eigen::Triplet<double>> entries_of_bent;
+  for (Index i = 0; i < f.variables(); ++i) {
+    const SparseEntries entries = entries_in_x(SparseMatrix::InnerIterator(f.H, i), f.n);
+    const DoubleDouble pull = plus_product(f.c[i], entries, b);
+    const DoubleDoubleVector image = product(entries, rows_of_A);
+    if (pull.lo != 0 || !image.lo.isZero(0)) return false;
+    slope[i] = pull.hi;
+    for (Index j = 0; j < A.cols(); ++j)
+      if (image.hi[j] != 0)
+        entries_of_bent.emplace_back(static_cast<int>(i), static_cast<int>(j), image.hi[j]);
+  }
+  SparseRows bent(f.variables(), A.cols());
+  bent.setFromTriplets(entries_of_bent.begin(), entries_of_bent.end());
+  for (Index j = 0; j < A.cols(); ++j) {
+    const SparseEntries column = entries_in_x(SparseMatrix::InnerIterator(A, j), f.n);
+    if (plus_product(0, column, slope).lo != 0 || !product(column, bent).lo.isZero(0)) return false;
   }
   return true;
 }
@@ -68,11 +115,15 @@ LinearQuadratic precompose(const LinearQuadratic& f, const SparseMatrix& A, cons
   validate(f, "precompose");
   require(A.rows() == f.n && b.size() == f.n, "precompose",
           "A and b do not fit the function; give them one row for each of its variables");
-  if (!rows_are_exact(f, A, b)) {
-    // u = Ax + b stays a variable: rounded rows would be those of another function.
+  const SparseRows rows(A);
+  /// u = Ax + b costs a program with as many variables more: of more rows than this, and than x has entries,
+  /// a solution takes far longer, for digits beside the last one.
+  constexpr Index few_rows = 96;
+  const bool few = A.rows() <= std::max(A.cols(), few_rows);
+  if (!rows_are_exact(f, rows, b) || (few && !curvature_is_exact(f, A, rows, b))) {
+    // u stays a variable: rounded data would be those of another function.
     const Index n = A.cols(), m = A.rows(), columns = n + m + f.auxiliaries();
     LinearQuadraticBuilder equations(n, columns - n);
-    const SparseRows rows(A);
     for (Index i = 0; i < m; ++i) {
       equations.equation(-b[i]);
       for (SparseRows::InnerIterator it(rows, i); it; ++it) equations.entry(it.col(), it.value());

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <optional>
+#include <random>
 
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/minimise.hpp"
+#include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/sets.hpp"
 #include "tests/convex/linear_quadratic/samples.hpp"
@@ -123,6 +125,41 @@ TEST_CASE("the prox is that of fractions, found by trying all active sets, ties 
       }
     }
   CHECK(found_in_fractions > 150);
+}
+
+TEST_CASE(
+    "the prox of weight/2 |Ax + b|^2 is within its bound of that of fractions, whatever AᵀA rounds to") {
+  std::mt19937 generator(17);
+  std::normal_distribution<double> normal;
+  const Index n = 3;
+  const Matrix I = Matrix::Identity(n, n);
+  for (const Index m : {2, 3, 5})
+    for (const double weight : {1.3, 900.0, 1e5})
+      for (const double offset : {1.0, 50.0}) {
+        CAPTURE(m);
+        CAPTURE(weight);
+        CAPTURE(offset);
+        const auto draw = [&] { return normal(generator); };
+        const Matrix A = Matrix::NullaryExpr(m, n, draw);
+        const Vector b = offset * Vector::NullaryExpr(m, draw), z = Vector::NullaryExpr(n, draw);
+        std::vector<RationalVector> M(n, RationalVector(n + 1));  // (1 + weight AᵀA) x = z - weight Aᵀb
+        for (Index i = 0; i < n; ++i) {
+          RationalVector& row = M[static_cast<std::size_t>(i)];
+          row[static_cast<std::size_t>(i)] = 1;
+          row.back() = Rational(z[i]);
+          for (Index k = 0; k < m; ++k) {
+            const Rational weighted = Rational(weight) * Rational(A(k, i));
+            row.back() -= weighted * Rational(b[k]);
+            for (Index j = 0; j < n; ++j) row[static_cast<std::size_t>(j)] += weighted * Rational(A(k, j));
+          }
+        }
+        const std::optional<RationalVector> exact = solve(std::move(M));
+        REQUIRE(exact);
+        const Prox found =
+            prox(lq::precompose(lq::squared_norm2(m, weight), A.sparseView(), b), z, Metric::identity(n));
+        REQUIRE(found.status == convex::Status::solved);
+        CHECK(distance(found.x, *exact, I) <= 1.01 * found.error_bound + 1e-17 * found.x.norm());
+      }
 }
 
 TEST_CASE("in the identity metric the prox has its known closed forms") {
