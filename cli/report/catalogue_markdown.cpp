@@ -23,7 +23,7 @@ What may stand in `f` of a `[decomposition]` ([problem-files.md](problem-files.m
 - `2*norm1() + norm2()` is `sum(scale(norm1(), 2), norm2())`, also as an argument. A difference, which need not be convex, is refused.
 - Numbers in a call are plain coordinates, whatever the metric, and so are the norms in names. The metric's product (x|y) = x·Wy enters
   in `conjugate`, `envelope`, `support` and `proximal_average` alone. Inside `separable` these take the diagonal block of the metric,
-  inside `precompose` the identity.
+  inside `precompose`, `perspective` and `epigraph` the identity.
 - A matrix as an argument of a set of matrices or a spectral function is stacked by columns.
 - A value is +inf outside the domain; a point within 1e-9 of the scale of itself and of the data belongs to it. Of one that
   is more than 1e-12 of that outside, farther than any prox leaves its point, the value is told with an error that may be infinite.
