@@ -111,8 +111,10 @@ Explained explain_scene(Problem problem, const std::string& file, const ExplainO
   Scene scene = make_scene(std::move(problem), file, options);
   ProvedScene resolved = resolve_and_prove(scene, false);
   mechanics::GaussSolution& solution = resolved.found.solution;
-  if (scene.written) settle_evaluation_error(scene, solution);
+  const std::optional<double> as_evaluated =
+      scene.written ? settle_evaluation_error(scene, solution) : std::nullopt;
   SolvedScene solved = solved_scene(scene, solution, 0);
+  solved.as_evaluated = as_evaluated;
   solved.warnings = std::move(resolved.warnings);
   add_contact_warnings(solved);
   Line next;

@@ -50,11 +50,12 @@ std::string rule_text(const SolvedAtlas& solved) {
 
 std::string map_text(const SolvedAtlas& solved) {
   const AtlasMap& map = *solved.map;
-  std::string text = "\nover";
+  std::vector<std::string> ranges;
   for (const ForceRange& range : map.over)
-    text += fmt::format(" {} from {} to {}", range.key, number_text(convex::nearest_double(range.low)),
-                        number_text(convex::nearest_double(range.high)));
-  text += ", added to the force of the file\n";
+    ranges.push_back(fmt::format("{} from {} to {}", range.key,
+                                 number_text(convex::nearest_double(range.low)),
+                                 number_text(convex::nearest_double(range.high))));
+  std::string text = "\nover " + listed(ranges) + ", added to the force of the file\n";
   TextTable table({"contacts that persist", "part of the map"});
   for (const convex::atlas::PlaneRegion& region : map.regions)
     table.add({contact_set(solved, solved.atlas.cells[region.cell].rows),

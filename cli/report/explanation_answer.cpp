@@ -210,12 +210,9 @@ void explain_answer(Document& document, const SolvedScene& solved) {
                           {number_math(read.reaction[i])}});
   blocks.emplace_back(std::move(table));
   explain_margins(document, solved);
-  const convex::Solution& primal = solved.solution.primal;
-  const double scale = std::max(primal.acceleration_norm, primal.force_norm);
-  blocks.emplace_back(Paragraph{{fmt::format(
-      "{}, with a relative error of the acceleration of at most about {:.1e}.",
-      primal.status == convex::Status::solved ? "Solved" : "Not solved to the accuracy asked for",
-      scale > 0 ? primal.error_bound / scale : primal.error_bound)}});
+  std::string accuracy = accuracy_text(solved);
+  accuracy.pop_back();  // its end of the line
+  blocks.emplace_back(Paragraph{{std::move(accuracy)}});
 }
 
 }  // namespace cli::inline reports

@@ -263,6 +263,8 @@ std::string mechanism_text(const SolvedScene& solved) {
       number_text(solved.scene.rates->df[first]), solved.scene.constraints[static_cast<std::size_t>(first)]);
 }
 
+}  // namespace
+
 std::string accuracy_text(const SolvedScene& solved) {
   const convex::Solution& primal = solved.solution.primal;
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
@@ -303,6 +305,8 @@ std::string accuracy_text(const SolvedScene& solved) {
                      solved.verbose || solved.asked_method ? " by " + methods_that_ran(solved) : "",
                      primal.polished ? ", polished" : "", accuracy);
 }
+
+namespace {
 
 std::string infeasible_text(const SolvedScene& solved) {
   const convex::Vector& w = solved.solution.primal.farkas;

@@ -194,6 +194,20 @@ TEST_CASE("explain says in words which equation an added row is") {
   CHECK(told.front().find("held with equality") != std::string::npos);
 }
 
+TEST_CASE("an explanation tells the accuracy in the words of solve") {
+  for (const std::string floor : {"y >= 0", "y >= sin(x) - x"}) {
+    const std::string file = point_on_floor({{9, "floor = \"" + floor + "\""}});
+    const std::string solved = run_on("solve", file).out;
+    const std::size_t at = solved.find("Solved: ");
+    REQUIRE(at != std::string::npos);
+    const std::string accuracy = solved.substr(at, solved.find('\n', at) - at);
+    std::string told = run_on("explain", file).out;
+    std::replace(told.begin(), told.end(), '\n', ' ');  // of its lines
+    CAPTURE(accuracy);
+    CHECK(told.find(accuracy) != std::string::npos);
+  }
+}
+
 TEST_CASE("a free motion is at the distance 0 of the point nearest to it, and rounding is printed as 0") {
   // sin(pi) is rounding, and beside it x is accelerated.
   const std::string text =
