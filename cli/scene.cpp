@@ -7,8 +7,8 @@
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/numbers_by_constraint.hpp"
 #include "cli/problem_file/settings.hpp"
+#include "cli/problem_file/tables.hpp"
 #include "convex/mistakes.hpp"
-#include "convex/nearest_name.hpp"
 #include "mechanics/angles_in_degrees.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
@@ -27,13 +27,9 @@ mechanics::GaussOptions solve_options(const SceneOptions& options, const SolveSe
   made.accuracy.limit = options.limit.value_or(made.accuracy.limit);
   const bool from_file = !options.method && settings.method;
   const std::string name = options.method.value_or(settings.method.value_or(std::string(made.method->name)));
-  made.method = convex::find_method(name);
-  if (made.method != nullptr) return made;
-  std::vector<std::string> known;
-  for (const convex::Method& method : convex::methods()) known.emplace_back(method.name);
-  throw InvalidInput((from_file ? "" : "--method: ") + ("unknown method \"" + name + "\"; ") +
-                         convex::suggestion(name, known, "`moreau methods` lists them"),
-                     from_file ? std::optional(settings.method_place) : std::nullopt);
+  made.method = &require_method(
+      name, from_file ? "" : "--method: ", from_file ? std::optional(settings.method_place) : std::nullopt);
+  return made;
 }
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {

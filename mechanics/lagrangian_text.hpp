@@ -35,6 +35,7 @@ struct Text {
 struct NamedText {
   Text name;
   Text value;
+  std::string told_as = {};  ///< how messages call the value, and no list the name; "": the name tells
 };
 
 /// The points of a table, as numbers and as they are written.

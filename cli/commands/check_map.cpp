@@ -27,7 +27,9 @@ using convex::InvalidInput;
 std::vector<mechanics::Text> components(const std::string& text) {
   const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
   if (first == std::string::npos) throw InvalidInput("--map: empty; write \"[x1/2, max(x2, 0)]\"");
-  if (text[first] != '[' || text[last] != ']') return {{text, {}}};
+  if (text[first] != '[') return {{text, {}}};
+  if (text[last] != ']')
+    throw InvalidInput("no ] closes the [; add it", convex::Place{1, static_cast<int>(first) + 1});
   std::vector<mechanics::Text> parts;
   std::size_t begin = first + 1;
   int depth = 0;

@@ -46,9 +46,8 @@ std::string nonnegative_number(const std::string& text) {
   return text + " is not a number from 0 on; give 0 or more";
 }
 
-void add_accuracy(CLI::App& command, AccuracyOptions& options, const char* tolerance) {
-  command.add_option("--method", options.method, "method of solution (see `moreau methods`)")
-      ->type_name("NAME");
+void add_accuracy(CLI::App& command, AccuracyOptions& options, const char* tolerance, const char* method) {
+  command.add_option("--method", options.method, method)->type_name("NAME");
   command.add_option("--tolerance", options.tolerance, tolerance)->type_name("X")->check(positive_number);
   command
       .add_option(

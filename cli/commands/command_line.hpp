@@ -63,7 +63,11 @@ void add_files(CLI::App& command, FileOptions&);
 inline constexpr const char* tolerance_of_solutions =
     "accept an error bound of X * max(1, ||q''||_A), default 1e-9; of a liquid of X times the largest "
     "pressure, default 1e-3";
-void add_accuracy(CLI::App& command, AccuracyOptions&, const char* tolerance = tolerance_of_solutions);
+inline constexpr const char* method_of_solutions = "method of solution (see `moreau methods`)";
+inline constexpr const char* method_of_functions =
+    "exact: in fractions, of what is piecewise linear-quadratic";
+void add_accuracy(CLI::App& command, AccuracyOptions&, const char* tolerance = tolerance_of_solutions,
+                  const char* method = method_of_solutions);
 
 /// --tolerance of a motion's steps.
 void add_step_tolerance(CLI::App& command, MotionChoice&);

@@ -218,7 +218,8 @@ void add_conjugate(CLI::App& program, Work& chosen) {
                     return options->symbolic ? tell_conjugate_in_symbols(*options) : tell_conjugate(*options);
                   });
   add_function(command, *options, false);
-  add_accuracy(command, *options, "accept an error of the value of X * max(1, |g(y)|), default 1e-9");
+  add_accuracy(command, *options, "accept an error of the value of X * max(1, |g(y)|), default 1e-9",
+               method_of_functions);
   add_proof(command, options->certify);
   add_symbols(command, *options);
   add_printing(command, *options);

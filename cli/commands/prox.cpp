@@ -15,6 +15,7 @@
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/json_writer.hpp"
 #include "cli/report/decomposition_report.hpp"
+#include "convex/counted.hpp"
 #include "convex/operations/takes_product.hpp"
 
 namespace cli::inline commands {
@@ -106,7 +107,8 @@ DecompositionProblem read_problem(const AskedPoint& point, const ProxOptions& op
     W = parse_metric(*options.metric);
     if (W.dimension() != point.z.size())
       throw InvalidInput(
-          fmt::format("metric: {} rows; give {}, one per entry of z", W.dimension(), point.z.size()));
+          fmt::format("metric: {}; give {}, one per entry of z",
+                      convex::counted(W.dimension(), "row", "rows"), point.z.size()));
   }
   source = {"f", options.expression};
   convex::Call f = parse_known_call(options.expression, "f");
@@ -169,7 +171,8 @@ void add_prox(CLI::App& program, Work& chosen) {
       ->type_name("X")
       ->check(positive_fraction);
   add_accuracy(command, *options,
-               "accept an error of x and of y of X * max(1, ||z||_W, ||x||_W), default 1e-9");
+               "accept an error of x and of y of X * max(1, ||z||_W, ||x||_W), default 1e-9",
+               method_of_functions);
   add_symbols(command, *options);
   add_printing(command, *options);
 }

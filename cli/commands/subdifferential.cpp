@@ -12,6 +12,7 @@
 #include "cli/report/subdifferential_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/counted.hpp"
 
 namespace cli::inline commands {
 namespace {
@@ -30,7 +31,8 @@ convex::Fractions read_exact_point(const std::string& text, const char* option, 
   parse_point(text, option + 2);
   convex::Fractions x = written_numbers(text);
   if (n != 0 && x.size() != n)
-    throw InvalidInput(fmt::format("{}: {} entries; give {}, as --at has", option + 2, x.size(), n));
+    throw InvalidInput(fmt::format("{}: {}; give {}, as --at has", option + 2,
+                                   convex::counted(x.size(), "entry", "entries"), n));
   return x;
 }
 

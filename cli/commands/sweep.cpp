@@ -18,6 +18,7 @@
 #include "cli/report/answer.hpp"
 #include "cli/sweep/change_search.hpp"
 #include "cli/sweep/sweep_table.hpp"
+#include "convex/counted.hpp"
 
 namespace cli::inline commands {
 namespace {
@@ -270,7 +271,7 @@ std::string summary_json(const SweepSummary& summary, const SweepTable& table, c
 }
 
 std::string summary_text(const SweepSummary& summary) {
-  std::string text = fmt::format("{} rows", summary.points);
+  std::string text = convex::counted(summary.points, "row", "rows");
   if (summary.without_answer > 0) text += fmt::format(", {} without an answer", summary.without_answer);
   text += summary.changes.empty() ? "\n" : "; the contacts that persist change at\n";
   constexpr std::size_t most_told = 20;

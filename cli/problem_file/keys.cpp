@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cli/problem_file/exact_number.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace cli::inline problem_files {
@@ -132,6 +133,17 @@ std::string table_of(const OtherWord& home) {
   return "[" + outer + (outer.empty() ? "" : ".") + home.word + "]";
 }
 
+/// The table that a key at the top of a document belongs to; "" where it belongs to none.
+std::string home_at_top(const std::string& key, const TomlValue& document) {
+  const ProblemKind* kind = kind_of(document);
+  return kind != nullptr && kind->has(key) ? kind->name : table_of_key(key);
+}
+
+std::string advice_on_home(const std::string& key, bool is_table, const std::string& home) {
+  return is_table ? "it is a part of [" + home + "], write [" + home + "." + key + "]"
+                  : "it belongs below [" + home + "]";
+}
+
 std::string advice_on_key(const std::string& unknown, bool is_table, const std::string& where,
                           const std::vector<std::string>& known) {
   const bool is_of_system =
@@ -140,8 +152,7 @@ std::string advice_on_key(const std::string& unknown, bool is_table, const std::
     if (is_of_system && unknown == home.word && where != home.key) {
       const std::string table(home.key);
       if (table.empty()) return "it is a table by itself, write [" + unknown + "]";
-      return is_table ? "it is a part of [" + table + "], write [" + table + "." + unknown + "]"
-                      : "it belongs below [" + table + "]";
+      return advice_on_home(unknown, is_table, table);
     }
   for (const OtherWord& other : not_here)
     if (is_of_system && unknown == other.word) return other.key;
@@ -174,10 +185,13 @@ void require_known_keys(const TomlValue& table, const std::string& where,
   const std::vector<std::string> names(known.begin(), known.end());
   for (const TomlEntry& entry : table.table) {
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
-    mistakes.add(InvalidInput(
-        "unknown key \"" + shown(entry.key) + "\"" + (where.empty() ? "" : " in [" + where + "]") + "; " +
-            advice_on_key(entry.key, entry.value.kind == TomlValue::Kind::table, where, names),
-        entry.place));
+    const bool is_table = entry.value.kind == TomlValue::Kind::table;
+    const std::string home = where.empty() ? home_at_top(entry.key, table) : "";
+    mistakes.add(InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
+                                  (where.empty() ? "" : " in [" + where + "]") + "; " +
+                                  (home.empty() ? advice_on_key(entry.key, is_table, where, names)
+                                                : advice_on_home(entry.key, is_table, home)),
+                              entry.place));
   }
   mistakes.tell();
 }
@@ -191,6 +205,28 @@ TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> kn
     if (!meant.empty() && table.find(meant) == nullptr) entry.key = meant;
   }
   return table;
+}
+
+TomlValue with_keys_at_home(TomlValue document) {
+  TomlValue kept = document;
+  kept.table.clear();
+  std::vector<TomlEntry> strays;
+  for (const TomlEntry& entry : document.table)
+    (home_at_top(entry.key, document).empty() ? kept.table : strays).push_back(entry);
+  for (const TomlEntry& stray : strays) {
+    const std::string home = home_at_top(stray.key, document);
+    const auto has_name = [&](const TomlEntry& entry) { return entry.key == home; };
+    auto to = std::find_if(kept.table.begin(), kept.table.end(), has_name);
+    if (to == kept.table.end()) {
+      TomlValue made;
+      made.kind = TomlValue::Kind::table;
+      made.place = stray.place;
+      to = kept.table.insert(to, TomlEntry{home, stray.place, std::move(made)});
+    }
+    const bool is_free = to->value.kind == TomlValue::Kind::table && to->value.find(stray.key) == nullptr;
+    if (is_free) to->value.table.push_back(stray);
+  }
+  return kept;
 }
 
 std::string table_of_key(const std::string& key) {

@@ -20,6 +20,10 @@ void require_known_keys(const TomlValue& table, const std::string& where,
 /// are missing: what stands behind it can be read, too.
 TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> known);
 
+/// The document with the keys at its top that belong below a table of it ("constraints", "until") in that
+/// table: what stands behind them can be read, too. A table that is not there is made.
+TomlValue with_keys_at_home(TomlValue document);
+
 /// The table of a mechanism's file that a key belongs to, "simulate" of "until"; "" of others.
 std::string table_of_key(const std::string& key);
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "cli/problem_file/keys.hpp"
+#include "convex/counted.hpp"
 #include "convex/mistakes.hpp"
 
 namespace cli::inline problem_files {
@@ -19,7 +20,7 @@ void require_entries(const TomlValue& row, const std::string& where, Index wante
                      std::set<Index>& told) {
   const Index found = entries_of(&row);
   if (found < 0 || found == wanted || !told.insert(found).second) return;  // of no list that is told
-  throw InvalidInput(where + ": " + std::to_string(found) + (found == 1 ? " entry" : " entries") + "; give " +
+  throw InvalidInput(where + ": " + convex::counted(found, "entry", "entries") + "; give " +
                          std::to_string(wanted) + ", " + why,
                      row.place);
 }

@@ -36,7 +36,7 @@ Quantity quantity(const TomlValue& value, const std::string& where, const std::s
   const std::string& text = value.text;
   const auto is_it = [&](const mechanics::NamedText& p) { return p.name.text == text; };
   const bool is_parameter = std::any_of(system.parameters.begin(), system.parameters.end(), is_it);
-  if (!is_parameter) system.parameters.push_back({{name, value.place}, {text, value.content}});
+  if (!is_parameter) system.parameters.push_back({{name, value.place}, {text, value.content}, where});
   const std::optional<double> number = value_in_parameters(system, is_parameter ? text : name);
   if (number && !(*number > 0))
     throw InvalidInput(where + ": " + shown(text) + " is not positive; give a number > 0", value.place);

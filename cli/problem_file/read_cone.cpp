@@ -1,7 +1,9 @@
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
+#include "convex/counted.hpp"
 
 namespace cli::inline problem_files {
 namespace {
@@ -33,9 +35,9 @@ Dimension dimension_of(const TomlValue& table, const std::vector<std::string>& k
   const auto from = [](const TomlValue& vector, const std::string& where) {
     const auto n = static_cast<Index>(require_array(vector, where).array.size());
     if (n < 1 || n > largest_dimension)
-      throw InvalidInput(
-          where + ": " + std::to_string(n) + " entries; give from 1 to " + std::to_string(largest_dimension),
-          vector.place);
+      throw InvalidInput(where + ": " + convex::counted(n, "entry", "entries") + "; give from 1 to " +
+                             std::to_string(largest_dimension),
+                         vector.place);
     return Dimension{n, "as many as " + where + " has"};
   };
   for (const std::string& key : keys)
@@ -71,9 +73,7 @@ convex::ExactMetric cone_metric(const TomlValue* value, const std::string& direc
 
 ConeProblem read_cone(const TomlValue& given, const std::string& directory) {
   convex::Mistakes mistakes;
-  const MeantTable meant(given, "cone",
-                         {"generators", "lines", "halfspaces", "equations", "z", "metric", "dimension"},
-                         mistakes);
+  const MeantTable meant(given, "cone", cone_keys, mistakes);
   const TomlValue& table = meant.table();
   const TomlEntry *of_generators = nullptr, *of_halfspaces = nullptr;
   for (const TomlEntry& entry : table.table) {
@@ -115,9 +115,9 @@ ConeProblem read_cone(const TomlValue& given, const std::string& directory) {
   });
   read("z", [&](const TomlValue& z) {
     if (const Index n = entries_of(&z); n >= 0 && n != cone.n)
-      mistakes.add(InvalidInput(
-          "z: " + std::to_string(n) + " entries; give " + std::to_string(cone.n) + ", " + dimension.why,
-          z.place));
+      mistakes.add(InvalidInput("z: " + convex::counted(n, "entry", "entries") + "; give " +
+                                    std::to_string(cone.n) + ", " + dimension.why,
+                                z.place));
     cone.z = read_exact_vector(z, "z");
   });
   mistakes.gather([&] { cone.W = cone_metric(table.find("metric"), directory, dimension); });

@@ -1,5 +1,6 @@
 #include "cli/function_language/parse_call.hpp"
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
@@ -39,11 +40,15 @@ convex::ExactGram exact_metric_of(const TomlValue& value, const convex::Metric& 
 
 DecompositionProblem read_decomposition(const TomlValue& given, const std::string& directory) {
   convex::Mistakes mistakes;
-  const MeantTable meant(given, "decomposition", {"z", "f", "metric"}, mistakes);
+  const MeantTable meant(given, "decomposition", decomposition_keys, mistakes);
   const TomlValue& table = meant.table();
   const TomlValue *z = table.find("z"), *f = table.find("f"), *metric = table.find("metric");
   if ((z == nullptr || f == nullptr) && meant.is_whole())
-    mistakes.add(InvalidInput("decomposition: z and f are needed; give both, z = [3, -1] and f = \"norm1()\"",
+    mistakes.add(InvalidInput(std::string("decomposition: ") +
+                                  (f != nullptr   ? "z is missing; give the point, z = [3, -1]"
+                                   : z != nullptr ? "f is missing; give a function, f = \"norm1()\""
+                                                  : "z and f are missing; give both, z = [3, -1] and f = "
+                                                    "\"norm1()\""),
                               table.place));
   const convex::Index n = length_of(z);  // known where its numbers are wrong, too
   convex::Vector point;

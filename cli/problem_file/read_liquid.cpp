@@ -1,8 +1,10 @@
 #include <cmath>
 
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/tables.hpp"
+#include "convex/counted.hpp"
 
 namespace cli::inline problem_files {
 namespace {
@@ -29,8 +31,8 @@ std::vector<Text> components(const TomlValue& table, const std::string& key, std
   for (const TomlValue& entry : require_array(*value, "liquid." + key).array)
     found.push_back(liquid_expression(entry, "liquid." + key));
   if (found.size() != n)
-    throw InvalidInput("liquid." + key + ": " + std::to_string(found.size()) + " expressions; give " +
-                           std::to_string(n) + ", one a coordinate",
+    throw InvalidInput("liquid." + key + ": " + convex::counted(found.size(), "expression", "expressions") +
+                           "; give " + std::to_string(n) + ", one a coordinate",
                        value->place);
   return found;
 }
@@ -72,10 +74,7 @@ long cell_count(const TomlValue& value) {
 LiquidProblem read_liquid(const TomlValue& given) {
   constexpr std::size_t most_coordinates = 3;
   convex::Mistakes mistakes;
-  const MeantTable meant(given, "liquid",
-                         {"coordinates", "domain", "density", "velocity", "force", "free", "walls", "cells",
-                          "low", "high", "symmetry", "parameters"},
-                         mistakes);
+  const MeantTable meant(given, "liquid", liquid_keys, mistakes);
   const TomlValue& table = meant.table();
   const auto read = [&](const char* key, const auto& work) {
     const TomlValue* value = table.find(key);

@@ -5,6 +5,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/matrix_market.hpp"
 #include "cli/problem_file/numbers.hpp"
+#include "convex/counted.hpp"
 
 namespace cli::inline problem_files {
 namespace {
@@ -32,7 +33,7 @@ Metric from_table(const TomlValue& value, const MetricKey& key) {
       throw InvalidInput(key.key + ": both diagonal and matrix_market; give one", value.place);
     const convex::Vector d = read_vector(*diagonal, key.key + ".diagonal");
     if (d.size() != key.n)
-      throw InvalidInput(key.key + ".diagonal: " + std::to_string(d.size()) + " entries; give " +
+      throw InvalidInput(key.key + ".diagonal: " + convex::counted(d.size(), "entry", "entries") + "; give " +
                              std::to_string(key.n) + ", " + key.why,
                          diagonal->place);
     return Metric::diagonal(d);

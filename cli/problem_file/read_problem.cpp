@@ -1,10 +1,11 @@
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <memory>
 
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/exact_projection.hpp"
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/tables.hpp"
 #include "convex/mistakes.hpp"
@@ -14,7 +15,6 @@ namespace {
 
 using convex::InvalidInput;
 
-constexpr std::array kinds{"system", "projection", "decomposition", "cone", "liquid"};
 constexpr std::initializer_list<const char*> known_keys{"title",         "system", "state",  "projection",
                                                         "decomposition", "cone",   "liquid", "solve",
                                                         "simulate",      "draw",   "bodies"};
@@ -28,7 +28,9 @@ bool is_unknown_table(const TomlEntry& entry) {
 const TomlEntry& content_table(const TomlValue& document) {
   const TomlEntry* found = nullptr;
   for (const TomlEntry& entry : document.table) {
-    if (std::find(kinds.begin(), kinds.end(), entry.key) == kinds.end()) continue;
+    if (std::none_of(std::begin(problem_kinds), std::end(problem_kinds),
+                     [&](const ProblemKind& kind) { return entry.key == kind.name; }))
+      continue;
     if (found != nullptr)
       throw InvalidInput("both [" + found->key + "] and [" + entry.key + "]; a file holds one problem",
                          entry.place);
@@ -69,7 +71,7 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   Problem problem;
   convex::Mistakes mistakes;
   mistakes.gather([&] { require_known_keys(*kept, "", known_keys); });
-  if (!mistakes.none()) *kept = with_meant_keys(std::move(*kept), known_keys);
+  if (!mistakes.none()) *kept = with_keys_at_home(with_meant_keys(std::move(*kept), known_keys));
   const TomlValue& document = *kept;
   const auto read = [&](const char* key, const auto& work) {
     if (const TomlValue* value = document.find(key)) mistakes.gather([&] { work(*value); });
@@ -98,6 +100,11 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
     if (content->key == "liquid") problem.content = read_liquid(content->value);
     if (content->key == "cone") problem.content = read_cone(content->value, directory);
   });
+  // A method that is told elsewhere may win over this one; beside what is wrong in the file it is told at
+  // once.
+  const bool has_method = is_system || content->key == "projection";
+  if (!mistakes.none() && problem.solve.method && has_method)
+    mistakes.gather([&] { require_method(*problem.solve.method, "", problem.solve.method_place); });
   mistakes.tell();
   return problem;
 }

@@ -2,9 +2,11 @@
 
 #include "cli/problem_file/exact_projection.hpp"
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
+#include "convex/counted.hpp"
 
 namespace cli::inline problem_files {
 namespace {
@@ -44,10 +46,13 @@ std::vector<Index> row_indices(const TomlValue* value, Index m) {
       continue;
     }
     const bool is_truth = entry.kind == TomlValue::Kind::boolean;
-    const std::string end = m < 0 ? " on" : " to " + std::to_string(m - 1);
+    const std::string there_are = m < 0    ? "rows are integers from 0 on"
+                                  : m == 0 ? "U has none"
+                                  : m == 1 ? "its only row is 0"
+                                           : "rows are integers from 0 to " + std::to_string(m - 1);
     mistakes.add(InvalidInput(
         "two_sided: " + (is_truth ? std::string(entry.boolean ? "true" : "false") : shown(entry.text)) +
-            " is no row of U; " + (m == 0 ? std::string("U has none") : "rows are integers from 0" + end),
+            " is no row of U; " + there_are,
         entry.place));
   }
   mistakes.tell();
@@ -72,7 +77,7 @@ convex::Metric read_inertia(const TomlValue& A, const MetricKey& key) {
 
 ProjectionProblem read_projection(const TomlValue& given, const std::string& directory) {
   convex::Mistakes mistakes;
-  const MeantTable meant(given, "projection", {"A", "z", "U", "s", "two_sided"}, mistakes);
+  const MeantTable meant(given, "projection", projection_keys, mistakes);
   const TomlValue& table = meant.table();
   const TomlValue *A = table.find("A"), *z = table.find("z"), *U = table.find("U"), *s = table.find("s");
   if ((A == nullptr || z == nullptr) && meant.is_whole())
@@ -99,9 +104,9 @@ ProjectionProblem read_projection(const TomlValue& given, const std::string& dir
     mistakes.add(InvalidInput("s is missing; give one number per row of U: " + std::to_string(m), U->place));
   const Index bounds = entries_of(s);
   if (m >= 0 && bounds >= 0 && bounds != m)
-    mistakes.add(InvalidInput(
-        "s: " + std::to_string(bounds) + " entries; give " + std::to_string(m) + ", one per row of U",
-        s->place));
+    mistakes.add(InvalidInput("s: " + convex::counted(bounds, "entry", "entries") + "; give " +
+                                  std::to_string(m) + ", one per row of U",
+                              s->place));
   mistakes.gather([&] { two_sided = row_indices(table.find("two_sided"), m); });
   if (A != nullptr && n < 0 && entries_of(A) >= 0)
     mistakes.gather([&] { read_matrix(*A, "A", -1, as_the_first); });

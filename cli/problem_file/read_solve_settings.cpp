@@ -1,5 +1,6 @@
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/tables.hpp"
+#include "convex/nearest_name.hpp"
 
 namespace cli::inline problem_files {
 
@@ -30,6 +31,16 @@ SolveSettings read_solve_settings(const TomlValue& table) {
   }
   mistakes.tell();
   return settings;
+}
+
+const convex::Method& require_method(const std::string& name, const std::string& option,
+                                     std::optional<convex::Place> place) {
+  if (const convex::Method* method = convex::find_method(name)) return *method;
+  std::vector<std::string> known;
+  for (const convex::Method& method : convex::methods()) known.emplace_back(method.name);
+  throw convex::InvalidInput(option + "unknown method \"" + name + "\"; " +
+                                 convex::suggestion(name, known, "`moreau methods` lists them"),
+                             place);
 }
 
 }  // namespace cli::inline problem_files

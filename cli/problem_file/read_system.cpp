@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/table_points.hpp"
@@ -48,8 +49,6 @@ std::vector<NamedText> named(const TomlValue* table, const std::string& where, c
   return entries;
 }
 
-constexpr std::initializer_list<const char*> system_keys{
-    "coordinates", "kinetic", "potential", "parameters", "definitions", "forces", "constraints", "looseness"};
 constexpr std::initializer_list<const char*> state_keys{"t", "position", "velocity", "in_contact",
                                                         "solve_for"};
 constexpr std::initializer_list<const char*> looseness_keys{"between", "gap", "restitution"};
@@ -77,6 +76,9 @@ bool read_lagrangian(mechanics::LagrangianText& system, const TomlValue& table, 
       throw InvalidInput("system.coordinates: no list of names; write coordinates = [\"x\", \"y\"]",
                          coordinates == nullptr ? table.place : coordinates->place);
     if (coordinates == nullptr) return;
+    if (coordinates->array.empty() && needed)
+      throw InvalidInput("system.coordinates: empty; name what moves, coordinates = [\"x\", \"y\"]",
+                         coordinates->place);
     for (const TomlValue& name : coordinates->array)
       are_named = mistakes.gather([&] {
         system.coordinates.push_back(string_text(name, "system.coordinates"));

@@ -3,6 +3,7 @@
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/toml_document.hpp"
 #include "convex/mistakes.hpp"
+#include "convex/nearest_point/methods.hpp"
 
 namespace cli::inline problem_files {
 
@@ -28,8 +29,12 @@ ConeProblem read_cone(const TomlValue& table, const std::string& directory);
 /// `[liquid]` with its parameters.
 LiquidProblem read_liquid(const TomlValue& table);
 
-/// `[solve]`.
+/// `[solve]`; whether the method is one is not asked.
 SolveSettings read_solve_settings(const TomlValue& table);
+
+/// The method of a name; otherwise InvalidInput. `option` is "--method: " where the name is not of a file.
+const convex::Method& require_method(const std::string& name, const std::string& option,
+                                     std::optional<convex::Place> place);
 
 /// The restitution of a constraint, or with an empty name of all.
 Restitution read_restitution(const mechanics::Text& constraint, const TomlValue& value,

@@ -155,6 +155,20 @@ std::string advice_on_value(const Spot& spot) {
   return advice_on_rest(token, from.substr(length));
 }
 
+/// "mu" of the small Greek letter at a place of a line, in UTF-8; "" where there is none.
+std::string_view greek_letter(const std::string& line, std::size_t here) {
+  constexpr std::array<std::string_view, 25> letters = {
+      "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",
+      "kappa", "lambda", "mu",      "nu",    "xi",      "omicron", "pi",   "rho",   "sigma",
+      "sigma", "tau",    "upsilon", "phi",   "chi",     "psi",     "omega"};
+  constexpr unsigned first = 0x3B1;  // of alpha; both forms of sigma follow each other
+  if (here + 1 >= line.size()) return {};
+  const auto lead = static_cast<unsigned char>(line[here]), rest = static_cast<unsigned char>(line[here + 1]);
+  if ((lead & 0xE0U) != 0xC0U) return {};
+  const unsigned code = (lead & 0x1FU) << 6U | (rest & 0x3FU);
+  return code < first || code - first >= letters.size() ? std::string_view() : letters[code - first];
+}
+
 bool says(std::string_view description, std::string_view words) {
   return description.find(words) != std::string_view::npos;
 }
@@ -213,7 +227,10 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
   const bool is_of_letters =
       spot.here < spot.line.size() && static_cast<unsigned char>(spot.line[spot.here]) >= 0x80;
   if (is_of_letters && (says(description, "inline table") || says(description, "root table")))
-    return "a key with a letter beyond a to z; names have none, write phi for φ";
+    return "a key with a letter beyond a to z; names have none" +
+           (greek_letter(spot.line, spot.here).empty()
+                ? std::string()
+                : ", write " + std::string(greek_letter(spot.line, spot.here)));
   if (says(description, "inline table")) return "no } closes this {; a table in { } stands on one line";
   if (says(description, "array: expected comma"))
     return "a list without its ], or two entries without a comma between them; write [1, 2]";
@@ -226,7 +243,11 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
   if (says(description, "saw ':'")) return "a colon between a key and its value; write " + key + " = …";
   if (says(description, "saw '''"))
     return "a key has no prime; velocities are named as their coordinates, velocity = { x = 1.0 }";
-  if (spot.line.find('=', spot.here) != std::string::npos)
+  const std::size_t equals = spot.line.find('=', spot.here);
+  if (equals != std::string::npos && spot.line[spot.here] == '[')
+    return "a bracket in a key; put the key into quotation marks, \"" +
+           without_spaces_around(spot.line.substr(0, equals)) + "\" = …";
+  if (equals != std::string::npos)
     return "a key of several words; join them with _, or put the key in quotation marks";
   return "no = between a key and its value; write " + key + " = …";
 }

@@ -11,6 +11,7 @@
 
 #include "cli/python/arrays.hpp"
 #include "cli/python/options.hpp"
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/repeated_problem.hpp"
 
@@ -45,7 +46,7 @@ Pieces pieces(const py::object& given, py::ssize_t axes, const char* name) {
   }
   const py::ssize_t found = made.numbers.ndim();
   if (found != axes && found != axes + 1)
-    throw InvalidInput(std::string(name) + ": " + std::to_string(found) + " axes; give " +
+    throw InvalidInput(std::string(name) + ": " + convex::counted(found, "axis", "axes") + "; give " +
                        std::to_string(axes) + ", or " + std::to_string(axes + 1) +
                        " with the problems along the first");
   made.many = found == axes + 1;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/python/arrays.hpp"
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace py = pybind11;
@@ -43,8 +44,8 @@ convex::ExactGram gram_of(const py::object& W, convex::Index n) {
   if (W.is_none()) return convex::identity_gram(static_cast<std::size_t>(n));
   const convex::Metric metric = metric_of(W, n, "W");
   if (metric.dimension() != n)
-    throw InvalidInput("W: " + std::to_string(metric.dimension()) + " rows; give " + std::to_string(n) +
-                       ", one per entry");
+    throw InvalidInput("W: " + convex::counted(metric.dimension(), "row", "rows") + "; give " +
+                       std::to_string(n) + ", one per entry");
   return exact_gram(metric);
 }
 

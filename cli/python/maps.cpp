@@ -6,6 +6,7 @@
 #include "cli/python/bindings.hpp"
 #include "cli/python/fractions.hpp"
 #include "cli/python/options.hpp"
+#include "convex/counted.hpp"
 #include "convex/laws/map_laws.hpp"
 
 namespace py = pybind11;
@@ -20,7 +21,7 @@ convex::ExactMetric metric_in_fractions(const py::object& W, Index n) {
   if (W.is_none()) return convex::identity_metric(n);
   const convex::Metric metric = metric_of(W, n, "W");
   if (metric.dimension() != n)
-    throw convex::InvalidInput("W: " + std::to_string(metric.dimension()) + " rows; give " +
+    throw convex::InvalidInput("W: " + convex::counted(metric.dimension(), "row", "rows") + "; give " +
                                std::to_string(n) + ", one per entry of T z");
   return exact_metric(metric);
 }
@@ -58,8 +59,8 @@ py::dict map_laws(const py::object& T, Index n, const py::object& W, double low,
         const py::object image = T(array_of(z));
         Vector x = vector_of(image, "T");
         if (x.size() != z.size())
-          throw convex::InvalidInput("T: " + std::to_string(x.size()) + " entries at a point of " +
-                                     std::to_string(z.size()) + "; return as many");
+          throw convex::InvalidInput("T: " + convex::counted(x.size(), "entry", "entries") +
+                                     " at a point of " + std::to_string(z.size()) + "; return as many");
         return x;
       },
       n);

@@ -10,6 +10,7 @@
 #include "cli/python/options.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/decomposition_report.hpp"
+#include "convex/counted.hpp"
 #include "convex/functions/decomposition.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/proved_prox/proved_split.hpp"
@@ -38,7 +39,7 @@ py::tuple prox(const Expression& f, const py::object& z, const py::object& W) {
   if (!point.allFinite()) throw InvalidInput("z: an entry is not finite; give finite numbers");
   const convex::Metric metric = metric_of(W, point.size(), "W");
   if (metric.dimension() != point.size())
-    throw InvalidInput("W: " + std::to_string(metric.dimension()) + " rows; give " +
+    throw InvalidInput("W: " + convex::counted(metric.dimension(), "row", "rows") + "; give " +
                        std::to_string(point.size()) + ", one per entry of z");
   const convex::Function made = f.in(metric);
   convex::Prox found;
@@ -54,7 +55,7 @@ py::tuple prox_batch(const Expression& f, const py::object& z, const py::object&
   const RowMatrix points = points_of(z);
   const convex::Metric metric = metric_of(W, points.cols(), "W");
   if (metric.dimension() != points.cols())
-    throw InvalidInput("W: " + std::to_string(metric.dimension()) + " rows; give " +
+    throw InvalidInput("W: " + convex::counted(metric.dimension(), "row", "rows") + "; give " +
                        std::to_string(points.cols()) + ", one per entry of a point");
   const convex::Function made = f.in(metric);
   py::array_t<double> x({points.rows(), points.cols()}), bound(points.rows());
@@ -114,8 +115,8 @@ ExactQuestion exact_question(const Expression& f, const py::object& z, const py:
   const auto n = static_cast<Index>(point.size());
   convex::ExactGram gram = gram_of(W, n);
   if (gram.dimension() != point.size())
-    throw InvalidInput("W: " + std::to_string(gram.dimension()) + " rows; give " + std::to_string(n) +
-                       ", one per entry of z");
+    throw InvalidInput("W: " + convex::counted(gram.dimension(), "row", "rows") + "; give " +
+                       std::to_string(n) + ", one per entry of z");
   convex::Metric metric = rounded(gram);
   return {{f.call(), std::move(point), std::move(gram)}, std::move(metric)};
 }
@@ -171,7 +172,7 @@ py::object derivative(const Expression& f, const py::object& z, const py::object
   const ExactQuestion exact = exact_question(f, z, W, "prox_derivative");
   const convex::Fractions direction = fractions_of(d, "d");
   if (direction.size() != exact.question.z.size())
-    throw InvalidInput("d: " + std::to_string(direction.size()) + " entries; give " +
+    throw InvalidInput("d: " + convex::counted(direction.size(), "entry", "entries") + "; give " +
                        std::to_string(exact.question.z.size()) + ", as z has");
   (void)f.in(exact.W)(nearest(exact.question.z));
   convex::Fractions moved;

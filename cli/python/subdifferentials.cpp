@@ -6,6 +6,7 @@
 #include "cli/python/bindings.hpp"
 #include "cli/python/expression.hpp"
 #include "cli/python/fractions.hpp"
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 #include "convex/sets/subdifferential.hpp"
@@ -31,8 +32,8 @@ struct SetOfSubgradients {
   convex::Fractions covector(const py::object& v, const char* name) const {
     convex::Fractions read = fractions_of(v, name);
     if (read.size() != at.n)
-      throw InvalidInput(std::string(name) + ": " + std::to_string(read.size()) + " entries; give " +
-                         std::to_string(at.n) + ", as x has");
+      throw InvalidInput(std::string(name) + ": " + convex::counted(read.size(), "entry", "entries") +
+                         "; give " + std::to_string(at.n) + ", as x has");
     return read;
   }
 };
@@ -99,7 +100,7 @@ py::object projection(const SetOfSubgradients& found, const py::object& u, const
   const convex::Vector point = nearest(found.covector(u, "u"));
   const convex::Metric metric = metric_of(V, point.size(), "V");
   if (metric.dimension() != point.size())
-    throw InvalidInput("V: " + std::to_string(metric.dimension()) + " rows; give " +
+    throw InvalidInput("V: " + convex::counted(metric.dimension(), "row", "rows") + "; give " +
                        std::to_string(point.size()) + ", one per entry of u");
   return array_of(found.not_empty().projection(point, metric));
 }

@@ -5,6 +5,7 @@
 
 #include "cli/python/arrays.hpp"
 #include "cli/python/options.hpp"
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/laws/trial.hpp"
 #include "convex/operations/operations.hpp"
@@ -48,8 +49,8 @@ class UserFunction : public convex::FunctionNode {
       x = vector_of((*prox_)(array_of(z), W), "prox");
     }
     if (x.size() != z.size())
-      throw InvalidInput(name_ + ": its prox has " + std::to_string(x.size()) + " entries at a point of " +
-                         std::to_string(z.size()) + "; return as many");
+      throw InvalidInput(name_ + ": its prox has " + convex::counted(x.size(), "entry", "entries") +
+                         " at a point of " + std::to_string(z.size()) + "; return as many");
     Vector v = W.multiply(z - x);
     const double bound = convex::rounding_bound(W, z, x);
     return {std::move(x), std::move(v),          bound, 0, convex::ProxRoute::closed_form,

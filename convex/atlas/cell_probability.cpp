@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "convex/cones/exact_metric.hpp"
+#include "convex/counted.hpp"
 #include "convex/exact/elimination.hpp"
 #include "convex/invalid_input.hpp"
 
@@ -89,7 +90,7 @@ NormalVariables normalised(const ExactInverse& V, const Places& places, const In
 CellProbability::CellProbability(const RowSpace& space, const NormalLinearTerm& linear)
     : space_(space), levels_(faces(space.cone)), has_metric_covariance_(!linear.covariance) {
   if (linear.mean.size() != space.n)
-    throw InvalidInput("mean: " + std::to_string(linear.mean.size()) + " entries; give " +
+    throw InvalidInput("mean: " + counted(linear.mean.size(), "entry", "entries") + "; give " +
                        std::to_string(space.n) + ", one per coordinate");
   mean_ = {applied(space.free_rows, linear.mean.numerators),
            linear.mean.denominator * space.factor.denominator};
@@ -99,7 +100,7 @@ CellProbability::CellProbability(const RowSpace& space, const NormalLinearTerm& 
     precision_scale_ = space.gauge;
   } else {
     if (static_cast<Index>(linear.covariance->size()) != space.n)
-      throw InvalidInput("covariance: " + std::to_string(linear.covariance->size()) + " rows; give " +
+      throw InvalidInput("covariance: " + counted(linear.covariance->size(), "row", "rows") + "; give " +
                          std::to_string(space.n) + ", one per coordinate");
     const ExactMetric covariance = exact_metric(*linear.covariance);
     IntegerRows of_c;

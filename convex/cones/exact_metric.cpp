@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace convex::inline cones {
@@ -24,8 +25,8 @@ void require_symmetric(const ExactRows& W) {
   Matrix rounded(static_cast<Index>(n), static_cast<Index>(n));
   for (std::size_t i = 0; i < n; ++i) {
     if (W[i].numerators.size() != n)
-      throw InvalidInput("metric: " + std::to_string(n) + " rows, but row " + std::to_string(i) + " has " +
-                         std::to_string(W[i].numerators.size()) + " entries; give a square matrix");
+      throw InvalidInput("metric: " + counted(n, "row", "rows") + ", but row " + std::to_string(i) + " has " +
+                         counted(W[i].numerators.size(), "entry", "entries") + "; give a square matrix");
     rounded.row(static_cast<Index>(i)) = nearest(W[i]);
   }
   const double slack = symmetry_roundings * unit_roundoff * static_cast<double>(n);

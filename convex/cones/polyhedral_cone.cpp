@@ -7,6 +7,7 @@
 #include "convex/cones/section_hull.hpp"
 #include "convex/cones/strict_functional.hpp"
 #include "convex/cones/verified_facets.hpp"
+#include "convex/counted.hpp"
 #include "convex/exact/elimination.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
@@ -25,7 +26,7 @@ IntegerRows directions(const ExactRows& rows, Index n, const char* what) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].size() != n)
       throw InvalidInput(std::string(what) + "[" + std::to_string(i) +
-                         "]: " + std::to_string(rows[i].size()) + " entries; give " + std::to_string(n));
+                         "]: " + counted(rows[i].size(), "entry", "entries") + "; give " + std::to_string(n));
     made.push_back(rows[i].numerators);
     make_primitive(made.back());
   }

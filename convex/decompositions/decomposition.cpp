@@ -1,4 +1,5 @@
 #include "convex/functions/decomposition.hpp"
+#include "convex/counted.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -160,8 +161,8 @@ Decomposition beyond_squares(const Function& f, const Vector& z, const Metric& W
 
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
   if (z.size() != W.dimension())
-    throw InvalidInput("z: " + std::to_string(z.size()) + " entries; give " + std::to_string(W.dimension()) +
-                       ", as many as the metric has");
+    throw InvalidInput("z: " + counted(z.size(), "entry", "entries") + "; give " +
+                       std::to_string(W.dimension()) + ", as many as the metric has");
   const double size = W.norm(z);
   if (!(size <= largest_size)) return beyond_squares(f, z, W, tolerance);
   Decomposition split = looked_at_in_turn(f, z, W, tolerance);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/functions/piecewise_sum.hpp"
 #include "convex/functions/sets.hpp"
 #include "convex/gamma0/parameter.hpp"
@@ -45,7 +46,7 @@ Set box(double lower, double upper) {
 
 Set box(const Vector& lower, const Vector& upper) {
   if (lower.size() != upper.size() || lower.size() == 0)
-    throw InvalidInput("box: lower has " + std::to_string(lower.size()) + " entries, upper " +
+    throw InvalidInput("box: lower has " + counted(lower.size(), "entry", "entries") + ", upper " +
                        std::to_string(upper.size()) + "; give as many, at least one");
   for (Index i = 0; i < lower.size(); ++i) check(lower[i], upper[i], " in entry " + std::to_string(i));
   const Call set{"box", {argument("lower", lower), argument("upper", upper)}};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/gamma0/parameter.hpp"
 #include "convex/linear_quadratic/sets.hpp"
@@ -19,7 +20,7 @@ namespace {
 Call mirrored(const Call& K) { return {"dilate", {argument(indicator_call(K)), argument("rho", -1.0)}}; }
 
 void require_two(Index n, const std::string& name) {
-  if (n < 2) throw InvalidInput(name + ": " + std::to_string(n) + " entries; give at least 2");
+  if (n < 2) throw InvalidInput(name + ": " + counted(n, "entry", "entries") + "; give at least 2");
 }
 
 /// A cone in the plain metric by its projections.

@@ -2,6 +2,7 @@
 
 #include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/counted.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/program_function.hpp"
 #include "convex/functions/sets.hpp"
@@ -22,8 +23,8 @@ void require_rows(const char* maker, const Matrix& A, const Vector& b) {
   if (A.rows() == 0 || A.cols() == 0)
     throw InvalidInput(std::string(maker) + "(A): no rows or columns; give at least one");
   if (b.size() != A.rows())
-    throw InvalidInput(std::string(maker) + "(b): " + std::to_string(b.size()) + " entries where A has " +
-                       std::to_string(A.rows()) + " rows; give as many");
+    throw InvalidInput(std::string(maker) + "(b): " + counted(b.size(), "entry", "entries") +
+                       " where A has " + counted(A.rows(), "row", "rows") + "; give as many");
 }
 
 /// f(factor (Ax - b)).

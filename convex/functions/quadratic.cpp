@@ -7,6 +7,7 @@
 #include "convex/composite/atom.hpp"
 #include "convex/composite/closed_form.hpp"
 #include "convex/composite/metric_difference.hpp"
+#include "convex/counted.hpp"
 #include "convex/functions/inverse_form.hpp"
 #include "convex/functions/semidefinite.hpp"
 #include "convex/gamma0/parameter.hpp"
@@ -257,11 +258,11 @@ Function quadratic(const Matrix& Q, const Vector& c, double constant) {
   require_finite("quadratic", "c", c);
   require_finite("quadratic", "constant", constant);
   if (Q.rows() != Q.cols() || Q.rows() == 0)
-    throw InvalidInput("quadratic(Q): " + std::to_string(Q.rows()) + " rows and " + std::to_string(Q.cols()) +
-                       " columns; give a square matrix");
+    throw InvalidInput("quadratic(Q): " + counted(Q.rows(), "row", "rows") + " and " +
+                       counted(Q.cols(), "column", "columns") + "; give a square matrix");
   if (c.size() != Q.rows())
-    throw InvalidInput("quadratic(c): " + std::to_string(c.size()) + " entries where Q has " +
-                       std::to_string(Q.rows()) + " rows; give as many");
+    throw InvalidInput("quadratic(c): " + counted(c.size(), "entry", "entries") + " where Q has " +
+                       counted(Q.rows(), "row", "rows") + "; give as many");
   for (Index j = 0; j < Q.cols(); ++j) {
     if (Q(j, j) < 0)
       throw InvalidInput("quadratic(Q): a diagonal entry is negative; the function would not be convex");

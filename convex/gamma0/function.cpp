@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
@@ -18,8 +19,8 @@ void check(const Function& f, const Vector& x, const char* what) {
   const Index n = f.dimension();
   if (x.size() == 0) throw InvalidInput(f.call().name + ": " + what + " has no entries; give at least one");
   if (n != 0 && x.size() != n)
-    throw InvalidInput(f.call().name + ": " + what + " has " + std::to_string(x.size()) +
-                       " entries, the function takes " + std::to_string(n) + "; give as many");
+    throw InvalidInput(f.call().name + ": " + what + " has " + counted(x.size(), "entry", "entries") +
+                       ", the function takes " + std::to_string(n) + "; give as many");
   f.node().require_size(x.size());
   for (Index i = 0; i < x.size(); ++i)
     if (!std::isfinite(x[i]))
@@ -80,8 +81,8 @@ Value Function::evaluate(const Vector& x) const {
 Prox Function::prox(const Vector& z, const Metric& W, const Look& look) const {
   check(*this, z, "z");
   if (W.dimension() != z.size())
-    throw InvalidInput(call().name + ": z has " + std::to_string(z.size()) + " entries, the metric " +
-                       std::to_string(W.dimension()) + " rows; give one of the other's size");
+    throw InvalidInput(call().name + ": z has " + counted(z.size(), "entry", "entries") + ", the metric " +
+                       counted(W.dimension(), "row", "rows") + "; give one of the other's size");
   const WorkLimit question;
   Prox found = node_->prox(z, W, look);
   if (found.x.size() == z.size()) settle_at_zero(*node_, z, W, found);

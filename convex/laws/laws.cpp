@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/laws/remembered.hpp"
 
@@ -119,7 +120,7 @@ std::string LawReport::text() const {
 
 Prox given_prox(Vector x, Index n) {
   if (x.size() != n)
-    throw InvalidInput("prox: it gave " + std::to_string(x.size()) + " entries at a point of " +
+    throw InvalidInput("prox: it gave " + counted(x.size(), "entry", "entries") + " at a point of " +
                        std::to_string(n) + "; return as many");
   return {std::move(x), {}, 0, 0, ProxRoute::closed_form, "given", Status::solved};
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "convex/counted.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/laws/map_cycles.hpp"
@@ -258,7 +259,7 @@ Map map_of(std::function<Vector(const Vector&)> T, Index n, double relative_erro
 
 MapVerdict laws(const Map& T, const ExactMetric& W, const MapSamples& samples) {
   if (W.dimension() != T.n)
-    throw InvalidInput("metric: " + std::to_string(W.dimension()) + " rows; give " + std::to_string(T.n) +
+    throw InvalidInput("metric: " + counted(W.dimension(), "row", "rows") + "; give " + std::to_string(T.n) +
                        ", one per component of the map");
   if (!(samples.low < samples.high)) throw InvalidInput("box: its lower end is not below its upper one");
   return MapSearch(T, W, samples).run();

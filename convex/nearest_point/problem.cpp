@@ -3,6 +3,7 @@
 #include <numeric>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/dense/dense_kernels.hpp"
 #include "convex/invalid_input.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 void require_size(const char* name, Index size, Index expected, const char* unit) {
   if (size != expected)
-    throw InvalidInput(std::string(name) + ": " + std::to_string(size) + " entries; give " +
+    throw InvalidInput(std::string(name) + ": " + counted(size, "entry", "entries") + "; give " +
                        std::to_string(expected) + ", one per " + unit);
 }
 
@@ -67,7 +68,7 @@ void validate(const NearestPointProblem& problem) {
   require_size("z", problem.z.size(), problem.dimension(), "coordinate");
   require_size("s", problem.s.size(), problem.rows(), "row of U");
   if (problem.rows() > 0 && problem.U.dimension() != problem.dimension())
-    throw InvalidInput("U: rows of " + std::to_string(problem.U.dimension()) + " entries; give " +
+    throw InvalidInput("U: rows of " + counted(problem.U.dimension(), "entry", "entries") + "; give " +
                        std::to_string(problem.dimension()) + ", one per coordinate");
   if (problem.radii) {
     require_size("radii of rows", problem.radii->row.size(), problem.rows(), "row of U");

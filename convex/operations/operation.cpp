@@ -8,6 +8,7 @@
 #include "convex/composite/closed_form.hpp"
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/saddle_solver.hpp"
+#include "convex/counted.hpp"
 #include "convex/double_double.hpp"
 #include "convex/gamma0/work_limit.hpp"
 #include "convex/infinity.hpp"
@@ -272,7 +273,7 @@ void require_fit(const Function& f, const Vector& c, const char* where, const ch
   const std::string start = std::string(where) + "(" + name + "): ";
   if (c.size() == 0) throw InvalidInput(start + "no entries; give at least one");
   if (f.dimension() != 0 && c.size() != f.dimension())
-    throw InvalidInput(start + std::to_string(c.size()) + " entries, the function takes " +
+    throw InvalidInput(start + counted(c.size(), "entry", "entries") + ", the function takes " +
                        std::to_string(f.dimension()) + "; give as many");
   f.node().require_size(c.size());
   if (!c.allFinite()) throw InvalidInput(start + "an entry is not finite; give finite numbers");

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/counted.hpp"
 #include "convex/double_double.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/linear_algebra/householder.hpp"
@@ -274,12 +275,12 @@ Function precompose(const Function& f, const Matrix& A, const Vector& b) {
   if (A.rows() == 0 || A.cols() == 0) refuse("(A): no entries; give at least one row and column");
   if (!A.allFinite()) refuse("(A): an entry is not finite; give finite numbers");
   if (f.dimension() != 0 && A.rows() != f.dimension())
-    refuse("(A): " + std::to_string(A.rows()) + " rows, the function takes " + std::to_string(f.dimension()) +
-           " entries; give as many");
+    refuse("(A): " + counted(A.rows(), "row", "rows") + ", the function takes " +
+           counted(f.dimension(), "entry", "entries") + "; give as many");
   f.node().require_size(A.rows());
   if (b.size() != A.rows())
-    refuse("(b): " + std::to_string(b.size()) + " entries, A has " + std::to_string(A.rows()) +
-           " rows; give as many");
+    refuse("(b): " + counted(b.size(), "entry", "entries") + ", A has " + counted(A.rows(), "row", "rows") +
+           "; give as many");
   if (!b.allFinite()) refuse("(b): an entry is not finite; give finite numbers");
   if (const auto* inner = dynamic_cast<const Precompose*>(&f.node()))
     return merged(inner->part(), inner->A(), inner->b(), A, b);

@@ -1,6 +1,7 @@
 #include <numeric>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/counted.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/composed_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -161,9 +162,9 @@ Function separable(std::span<const Function> parts, const std::vector<Index>& si
                          " has no entries; give a size of at least 1");
     parts[k].node().require_size(sizes[k]);
     if (parts[k].dimension() != 0 && parts[k].dimension() != sizes[k])
-      throw InvalidInput("separable: block " + std::to_string(k) + " has " + std::to_string(sizes[k]) +
-                         " entries, its function takes " + std::to_string(parts[k].dimension()) +
-                         "; give as many");
+      throw InvalidInput("separable: block " + std::to_string(k) + " has " +
+                         counted(sizes[k], "entry", "entries") + ", its function takes " +
+                         std::to_string(parts[k].dimension()) + "; give as many");
   }
   return Function(std::make_shared<Separable>(std::vector<Function>(parts.begin(), parts.end()), sizes));
 }

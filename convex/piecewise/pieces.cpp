@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "convex/counted.hpp"
 #include "convex/double_double.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/piecewise/curve_builder.hpp"
@@ -47,8 +48,8 @@ struct Table {
 void Table::check_rows() const {
   if (rows.cols() != 3 || rows.rows() != breaks.size() + 1)
     refuse("the coefficients are ", rows.rows(), "x", rows.cols(),
-           "; give a row [c2, c1, c0] for each of the ", breaks.size() + 1, " pieces that ", breaks.size(),
-           " breaks make");
+           "; give a row [c2, c1, c0] for each of the ", breaks.size() + 1, " pieces that ",
+           counted(breaks.size(), "break makes", "breaks make"));
   for (Index i = 0; i < breaks.size(); ++i)
     if (!std::isfinite(breaks[i])) refuse("break ", i, " is not finite; leave it out");
   for (Index i = 0; i < rows.rows(); ++i) {

@@ -7,6 +7,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/composite/atom.hpp"
 #include "convex/cones/cone_operations.hpp"
+#include "convex/counted.hpp"
 #include "convex/exact_program/exact_arguments.hpp"
 #include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
@@ -109,8 +110,8 @@ std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
 Subdifferential subdifferential(const Call& f, const ExactGram& W, const Fractions& x) {
   using namespace subgradients;
   if (x.size() != W.dimension())
-    throw InvalidInput("x: " + std::to_string(x.size()) + " entries; give " + std::to_string(W.dimension()) +
-                       ", as many as the metric has");
+    throw InvalidInput("x: " + counted(x.size(), "entry", "entries") + "; give " +
+                       std::to_string(W.dimension()) + ", as many as the metric has");
   if (const auto program = exact_program(f, W)) {
     if (auto P = of_program(*program, x)) return of_polyhedron(std::move(*P), true);
     if (auto found = of_smooth_or_homogeneous(f, W, x)) return std::move(*found);

@@ -36,7 +36,7 @@ class Reading {
       mistakes.gather([&] { parse_expression(model_.sources.add(value, what), scope); });
     };
     for (const NamedText& p : text_.parameters)
-      gather(p.value, "parameter " + p.name.text, {&model_.names, Vocabulary::parameters, {}});
+      gather(p.value, told(p), {&model_.names, Vocabulary::parameters, {}});
     for (const Source* key : coordinate_keys_) mistakes.gather([&] { parse_key(*key, model_.names, true); });
     gather(text_.kinetic, "kinetic", everything);
     if (text_.potential) gather(*text_.potential, "potential", everything);
@@ -69,13 +69,21 @@ class Reading {
     std::vector<std::uint32_t> entries;
   };
 
+  static std::string told(const NamedText& parameter) {
+    return parameter.told_as.empty() ? "parameter " + parameter.name.text : parameter.told_as;
+  }
+
   void declare_names() {
     for (const NamedText& p : text_.parameters) {
       const Source& key = model_.sources.add(p.name, "parameters");
       const KeyName name = parse_key_name(key);
       if (name.indices > 0) key.fail(0, "a parameter has no index; make a family of definitions of it");
       const auto number = static_cast<std::uint32_t>(meanings_.parameter_names.size());
-      model_.names.declare(name.name, {Name::Kind::parameter, number, 0}, key, 0);
+      const Name meaning{Name::Kind::parameter, number, 0};
+      if (p.told_as.empty())
+        model_.names.declare(name.name, meaning, key, 0);
+      else
+        model_.names.declare_unlisted(name.name, meaning, key, 0);
       meanings_.parameter_names.push_back(name.name);
     }
     for (std::size_t i = 0; i < text_.coordinates.size(); ++i) {
@@ -110,8 +118,7 @@ class Reading {
 
   void read_parameters() {
     for (std::size_t p = 0; p < text_.parameters.size(); ++p) {
-      const Source& value =
-          model_.sources.add(text_.parameters[p].value, "parameter " + meanings_.parameter_names[p]);
+      const Source& value = model_.sources.add(text_.parameters[p].value, told(text_.parameters[p]));
       meanings_.parameters.push_back(parse_expression(value, {&model_.names, Vocabulary::parameters, {}}));
     }
     for (std::uint32_t p = 0; p < meanings_.parameters.size(); ++p) expansion_.parameter(p);

@@ -27,6 +27,11 @@ bool is_reserved(std::string_view name) {
 }
 
 void Names::declare(std::string_view name, Name meaning, const Source& source, std::size_t offset) {
+  declare_unlisted(name, meaning, source, offset);
+  in_order_.emplace_back(name);
+}
+
+void Names::declare_unlisted(std::string_view name, Name meaning, const Source& source, std::size_t offset) {
   if (is_reserved(name))
     source.fail(offset,
                 "the name " + quoted(name) + " belongs to the language of expressions; choose another");
@@ -34,7 +39,6 @@ void Names::declare(std::string_view name, Name meaning, const Source& source, s
   if (!is_new)
     source.fail(offset, "the name " + quoted(name) + " is taken, it is already " +
                             std::string(article_and_kind(known->second.kind)) + "; rename one of the two");
-  in_order_.emplace_back(name);
 }
 
 const Name* Names::find(std::string_view name) const {

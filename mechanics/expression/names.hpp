@@ -27,6 +27,8 @@ class Names {
  public:
   /// A name that is already taken, or reserved, is InvalidInput at `offset` of `source`.
   void declare(std::string_view name, Name meaning, const Source& source, std::size_t offset);
+  /// The same of a name that no text of the file has: no suggestion lists it.
+  void declare_unlisted(std::string_view name, Name meaning, const Source& source, std::size_t offset);
   const Name* find(std::string_view name) const;
   /// "; did you mean x?", or what there is, among the names of the kinds, `also` and, where `language`,
   /// functions.

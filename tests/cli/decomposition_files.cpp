@@ -76,8 +76,8 @@ TEST_CASE("the readable split shows z, x and y, and how each was found") {
 
 TEST_CASE("wrong decompositions are refused where they are wrong") {
   const std::vector<Wrong> table{
-      {split({{2, ""}}), "1:1", {"z and f are needed"}},
-      {split({{3, ""}}), "1:1", {"z and f are needed"}},
+      {split({{2, ""}}), "1:1", {"z is missing"}},
+      {split({{3, ""}}), "1:1", {"f is missing"}},
       {split({{2, "z = []"}}), "2:5", {"empty"}},
       {split({{2, "z = [1, inf]"}}), "2:9", {"z[1]", "not finite"}},
       {split({{2, "z = 3"}}), "2:5", {"not a list"}},
@@ -99,11 +99,11 @@ TEST_CASE("wrong decompositions are refused where they are wrong") {
       {f("norm2(1, 2)"), "3:15", {"too many"}},
       {f("norm2(1, weight=2)"), "3:15", {"twice"}},
       {f("norm2([1, 2])"), "3:12", {"norm2(weight)", "number"}},
-      {f("norm2(-1)"), "3:6", {"norm2(weight)"}},
+      {f("norm2(-1)"), "3:12", {"norm2(weight)"}},
       {f("indicator(norm2())"), "3:16", {"set"}},
-      {f("indicator(ball2(radius=-1))"), "3:16", {"ball2(radius)"}},
-      {f("quadratic([[1, 0], [0, -1]])"), "3:6", {"quadratic"}},
-      {f("quadratic([[1]])"), "3:6", {"quadratic", "1", "2"}},
+      {f("indicator(ball2(radius=-1))"), "3:22", {"ball2(radius)"}},
+      {f("quadratic([[1, 0], [0, -1]])"), "3:16", {"quadratic"}},
+      {f("quadratic([[1]])"), "3:6", {"quadratic", "1 entry", "2"}},
       {split({{3, "f = \"\"\"\n  norm2(\n    oops)\"\"\""}}), "5:5", {"oops()"}},
       {split({{5, "[solve]\nmethod = \"active-set\""}}), "6:10", {"active-set", "does not apply"}},
       {split({{5, "[solve]\ncontact_tolerance = 1e-3"}}), "6:21", {"contact_tolerance"}},

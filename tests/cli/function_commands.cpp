@@ -93,7 +93,7 @@ TEST_CASE("a conjugate needs no number of entries where the data tell it") {
 TEST_CASE("wrong expressions are told from wrong points and wrong metrics, with a caret under the place") {
   const std::vector<WrongArguments> table{
       {{"prox", "norm3()", "--at", "[1]"}, "f:1:1: ", {"norm3", "did you mean", "\n  norm3()\n  ^\n"}},
-      {{"prox", "indicator(ball2(-1))", "--at", "[1]"}, "f:1:11: ", {"\n            ^\n"}},
+      {{"prox", "indicator(ball2(-1))", "--at", "[1]"}, "f:1:17: ", {"\n                  ^\n"}},
       {{"prox", "indicator(ball2)", "--at", "[1]"}, "f:1:11: ", {"ball2()"}},
       {{"prox", "norm2()", "--at", "[1,"}, "--at:1:1: ", {"no ] closes"}},
       {{"prox", "norm2()", "--at", "1"}, "--at:1:1: ", {"vector"}},
@@ -109,7 +109,7 @@ TEST_CASE("wrong expressions are told from wrong points and wrong metrics, with 
        {"metric: not positive"}},
       {{"prox", "norm2()", "--at", "[1]", "--method", "active-set"}, "--method:1:1: ", {"does not apply"}},
       {{"conjugate", "quadratic([[1]])", "--at", "[1, 2]"}, "f:1:1: ", {"quadratic"}},
-      {{"conjugate", "quadratic([[-1]])"}, "f:1:1: ", {"quadratic"}},
+      {{"conjugate", "quadratic([[-1]])"}, "f:1:11: ", {"quadratic"}},
       {{"conjugate", "norm2(", "--at", "[1, 2]"}, "f:1:1: ", {"no ) closes"}},
       {{"functions", "norm3"}, "norm3:1:1: ", {"norm3", "did you mean"}},
   };

@@ -157,6 +157,51 @@ TEST_CASE("wrong names within one function are told at once, with what is wrong 
        "3:52: envelope: there is no argument \"gama\"; "});
 }
 
+TEST_CASE("wrong values within one function are told at once, each at the argument that it is of") {
+  check_told(
+      "[decomposition]\nz = [1, 2]\n"
+      "f = \"sum(norm1(-1), 2*ball2(center=0, radius=-2), huber(mu=0), elastic_net(-1, -1))\"\n",
+      {"3:16: norm1(weight): negative; ", "3:39: ball2(radius): negative; ",
+       "3:57: huber(mu): not positive; ", "3:76: elastic_net(l1): negative; ",
+       "3:80: elastic_net(l2): negative; "});
+  // Blocks, images and conjugates are in spaces of their own.
+  check_told(
+      "[decomposition]\nz = [1, 2]\nf = \"separable(conjugate(huber(-1)), 1, precompose(norm2(-3), [[1]]), "
+      "1)\"\n",
+      {"3:32: huber(mu): not positive; ", "3:58: norm2(weight): negative; "});
+  // What a stand-in may have made is not told: with all of space for the ball the sum would be improper.
+  check_told("[decomposition]\nz = [1]\nf = \"inf_convolution(ball2(radius=-1), linear([1]))\"\n",
+             {"3:28: ball2(radius): negative; "});
+}
+
+TEST_CASE("what stands at the top and belongs below a table is read there") {
+  check_told(point_on_floor({{8, "[constraints]"}, {9, "floor = \"y => 0\""}}),
+             {"8:2: unknown key \"constraints\"; ", "9:12: constraint floor: "});
+  check_told(point_on_floor({{1, "until = -1"}, {2, "[system]\ncoordinates = [\"x\", \"y\"]"}}),
+             {"1:1: unknown key \"until\"; it belongs below [simulate]"});
+  check_told("A = [[1, 0], [0]]\nz = [1, 2]\n", {"1:1: unknown key \"A\"; it belongs below [projection]",
+                                                 "1:14: A[1]: 1 entry; ", "2:1: unknown key \"z\"; "});
+  check_told(point_on_floor({{1, ""}}),
+             {"2:1: unknown key \"coordinates\"; it belongs below [system]", "3:1: unknown key \"kinetic\"; ",
+              "4:1: unknown key \"potential\"; "});
+}
+
+TEST_CASE("a name that no method has is told beside what else is wrong") {
+  const std::string wrong = "unknown method \"activ-set\"; did you mean \"active-set\"?";
+  check_told(
+      point_on_floor({{3, "kinetics = \"m/2*(x'^2 + y'^2)\""}, {13, "[solve]\nmethod = \"activ-set\""}}),
+      {"3:1: unknown key \"kinetics\" in [system]; ", "14:10: " + wrong});
+  check_told("[projection]\nA = [[1]]\n[solve]\nmethod = \"activ-set\"\n",
+             {"1:1: projection: z is missing; ", "4:10: " + wrong});
+}
+
+TEST_CASE("what bodies add to a system has no name in a message") {
+  const std::string body = "[bodies.b]\nmass = 2\ninertia = [\"2*m\", \"2*m\", \"2*k\"]\n";
+  check_told("[system]\npotential = \"qqqqqq\"\nparameters = { m = 1 }\n" + body + "[state]\nposition = {}\n",
+             {"2:14: potential: \"qqqqqq\" is unknown; known are m, b_x, ",
+              "6:29: bodies.b.inertia: \"k\" is unknown"});
+}
+
 TEST_CASE("mistakes in the keys of [liquid] are told at once") {
   check_told(
       "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = 3\ndensty = 1\nvelocity = [\"x\"]\ncells = 0\n"
@@ -186,7 +231,7 @@ TEST_CASE("a wrong value of a parameter, a body or a looseness hides nothing beh
              {"4:18: potential: \"yy\" is unknown; did you mean \"y\"?",
               "6:5: system.parameters.m: ", "9:9: system.constraints.floor: ", "11:5: system.forces.x: ",
               "13:1: unknown key \"mas\" in [bodies.b]; ", "14:12: bodies.b.inertia: -1 is not positive",
-              "14:19: parameter b_Iy: ", "14:22: bodies.b.inertia: neither a number nor an expression; ",
+              "14:19: bodies.b.inertia: ", "14:22: bodies.b.inertia: neither a number nor an expression; ",
               "16:8: bodies.c.mass: -1 is not positive; ", "17:11: bodies.c.inertia: not three moments; "});
   check_told(point_on_floor({{3, "kinetic = [1]"},
                              {13,

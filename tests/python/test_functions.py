@@ -151,7 +151,7 @@ class UserFunctions(unittest.TestCase):
             with self.assertRaisesRegex(ZeroDivisionError, "mine"):
                 prox(f, z)
         short = moreau.user_function(lambda x: 0.0, lambda z, W: z[:1], check=0)
-        with self.assertRaisesRegex(moreau.InvalidInput, "1 entries at a point of 3"):
+        with self.assertRaisesRegex(moreau.InvalidInput, "1 entry at a point of 3"):
             prox(short, np.ones(3))
 
     def test_a_prox_that_is_not_accurate_is_an_error_with_what_was_found(self):

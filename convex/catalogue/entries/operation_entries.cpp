@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "convex/catalogue/entries/entries.hpp"
+#include "convex/counted.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/takes_product.hpp"
@@ -26,8 +27,8 @@ Function make_precompose(const Arguments& a) {
   const Matrix A = a.matrix("A");
   if (A.rows() == 0 || A.cols() == 0) a.refuse("A", "no entries; give at least one row and column");
   if (A.cols() != a.space().dimension())
-    a.refuse("A", std::to_string(A.cols()) + " columns, the space has " +
-                      std::to_string(a.space().dimension()) + " entries; give as many");
+    a.refuse("A", counted(A.cols(), "column", "columns") + ", the space has " +
+                      counted(a.space().dimension(), "entry", "entries") + "; give as many");
   const Vector b = a.given("b") ? a.vector("b") : Vector::Zero(A.rows());
   return precompose(a.function_in("f", plain(A.rows())), A, b);
 }
@@ -50,7 +51,7 @@ Function make_separable(const Arguments& a) {
   }
   const Metric& W = a.space().product;
   if (total != W.dimension())
-    fail(given.front(), "its blocks have " + std::to_string(total) + " entries, the space has " +
+    fail(given.front(), "its blocks have " + counted(total, "entry", "entries") + ", the space has " +
                             std::to_string(W.dimension()) + "; give sizes that add up to it");
   const bool coupled = couples(W, sizes);
   std::vector<Function> parts;

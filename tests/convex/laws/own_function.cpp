@@ -67,7 +67,7 @@ TEST_CASE(
     double operator()(const Vector&) const { return 0; }
     Vector prox(const Vector& z, const Metric&) const { return z.head(1); }
   };
-  CHECK_THROWS_WITH_AS(laws(Short{}), "prox: it gave 1 entries at a point of 3; return as many",
+  CHECK_THROWS_WITH_AS(laws(Short{}), "prox: it gave 1 entry at a point of 3; return as many",
                        InvalidInput);
   for (const Index n : {0, -1}) {
     CAPTURE(n);

@@ -34,7 +34,7 @@ TEST_CASE("data that do not fit together, or are not finite, are refused at the 
   refuses(problem, "z: 3 entries");
   problem = two_by_two();
   problem.s = Vector::Zero(1);
-  refuses(problem, "s: 1 entries");
+  refuses(problem, "s: 1 entry");
   problem = two_by_two();
   problem.U = convex::ConstraintRows(RowMatrix::Identity(2, 3));
   refuses(problem, "U: rows of 3");
