@@ -169,6 +169,19 @@ std::string advice_on_key(const std::string& unknown, bool is_table, const std::
   return convex::suggestion(unknown, known);
 }
 
+/// Puts an entry into a table of a document, which is made where it is not there; over no other entry.
+void put_into(TomlValue& document, const std::string& table, const TomlEntry& entry) {
+  const auto is_it = [&](const TomlEntry& one) { return one.key == table; };
+  auto to = std::find_if(document.table.begin(), document.table.end(), is_it);
+  if (to == document.table.end()) {
+    TomlValue made;
+    made.place = entry.place;
+    to = document.table.insert(to, TomlEntry{table, entry.place, std::move(made)});
+  }
+  const bool is_free = to->value.kind == TomlValue::Kind::table && to->value.find(entry.key) == nullptr;
+  if (is_free) to->value.table.push_back(entry);
+}
+
 }  // namespace
 
 std::string shown(const std::string& text) {
@@ -213,20 +226,37 @@ TomlValue with_keys_at_home(TomlValue document) {
   std::vector<TomlEntry> strays;
   for (const TomlEntry& entry : document.table)
     (home_at_top(entry.key, document).empty() ? kept.table : strays).push_back(entry);
-  for (const TomlEntry& stray : strays) {
-    const std::string home = home_at_top(stray.key, document);
-    const auto has_name = [&](const TomlEntry& entry) { return entry.key == home; };
-    auto to = std::find_if(kept.table.begin(), kept.table.end(), has_name);
-    if (to == kept.table.end()) {
-      TomlValue made;
-      made.kind = TomlValue::Kind::table;
-      made.place = stray.place;
-      to = kept.table.insert(to, TomlEntry{home, stray.place, std::move(made)});
-    }
-    const bool is_free = to->value.kind == TomlValue::Kind::table && to->value.find(stray.key) == nullptr;
-    if (is_free) to->value.table.push_back(stray);
-  }
+  for (const TomlEntry& stray : strays) put_into(kept, home_at_top(stray.key, document), stray);
   return kept;
+}
+
+void move_strays_home(TomlValue& document, convex::Mistakes& mistakes) {
+  const ProblemKind* kind = kind_of(document);
+  const auto content = std::find_if(document.table.begin(), document.table.end(), [&](const TomlEntry& one) {
+    return kind != nullptr && one.key == kind->name;
+  });
+  if (content == document.table.end()) return;
+  std::vector<std::pair<std::string, TomlEntry>> strays;  // with the table that each belongs to
+  for (TomlEntry& part : content->value.table) {
+    if (part.key != "parameters" && part.key != "definitions" && part.key != "forces" &&
+        part.key != "constraints")
+      continue;
+    std::erase_if(part.value.table, [&](const TomlEntry& entry) {
+      const bool is_name = entry.value.is_string() || entry.value.is_number();
+      const bool is_of_kind = kind->has(entry.key) && content->value.find(entry.key) == nullptr;
+      const std::string home = is_of_kind ? kind->name : is_name ? "" : table_of_key(entry.key);
+      if (home.empty() || (is_name && kind->keys != &system_keys)) return false;
+      const std::string table = std::string(kind->name) + "." + part.key;
+      mistakes.add(InvalidInput(
+          table + "." + shown(entry.key) + ": this is of [" + home + "]; " +
+              (is_of_kind ? "write it above [" + table + "]" + (is_name ? ", or take another name" : "")
+                          : "write [" + home + "] above it"),
+          entry.place));
+      strays.emplace_back(home, entry);
+      return true;
+    });
+  }
+  for (const auto& [home, stray] : strays) put_into(document, home, stray);
 }
 
 std::string table_of_key(const std::string& key) {

@@ -24,6 +24,11 @@ TomlValue with_meant_keys(TomlValue table, std::initializer_list<const char*> kn
 /// table: what stands behind them can be read, too. A table that is not there is made.
 TomlValue with_keys_at_home(TomlValue document);
 
+/// Moves what stands below a table of names and belongs elsewhere, as "potential" below [system.parameters]
+/// where [system] has none, or a table "position": a line with the name of its table is missing before it, or
+/// stands too early. Each is added to the mistakes.
+void move_strays_home(TomlValue& document, convex::Mistakes& mistakes);
+
 /// The table of a mechanism's file that a key belongs to, "simulate" of "until"; "" of others.
 std::string table_of_key(const std::string& key);
 

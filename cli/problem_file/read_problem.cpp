@@ -72,6 +72,7 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   convex::Mistakes mistakes;
   mistakes.gather([&] { require_known_keys(*kept, "", known_keys); });
   if (!mistakes.none()) *kept = with_keys_at_home(with_meant_keys(std::move(*kept), known_keys));
+  move_strays_home(*kept, mistakes);
   const TomlValue& document = *kept;
   const auto read = [&](const char* key, const auto& work) {
     if (const TomlValue* value = document.find(key)) mistakes.gather([&] { work(*value); });

@@ -141,6 +141,8 @@ std::string advice_on_value(const Spot& spot) {
   if (from.rfind("\xe2\x80\x9c", 0) == 0 || from.rfind("\xe2\x80\x9d", 0) == 0 ||
       from.rfind("\xe2\x80\x9e", 0) == 0)
     return "no quotation marks of TOML; write straight ones, \"";
+  if (from.rfind("\xe2\x88\x92", 0) == 0 || from.rfind("\xe2\x80\x93", 0) == 0)
+    return "no minus sign of TOML; write the hyphen, -";
   if (from.size() > 1 && from.front() == '.' && std::isdigit(static_cast<unsigned char>(from[1])) != 0)
     return "a number begins with a digit; write 0" + spot.value;
   char* end = nullptr;

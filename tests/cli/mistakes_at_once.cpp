@@ -186,6 +186,26 @@ TEST_CASE("what stands at the top and belongs below a table is read there") {
               "4:1: unknown key \"potential\"; "});
 }
 
+TEST_CASE("what stands below a table of names and belongs elsewhere is told where, and read there") {
+  // Without its place a potential was a definition that nothing uses: the point had no weight, and nothing
+  // was said.
+  check_told(
+      point_on_floor({{4, "[system.definitions]\npotential = \"m*g*y\""}}),
+      {"5:1: system.definitions.potential: this is of [system]; write it above [system.definitions], "});
+  check_told(point_on_floor({{4, ""}, {7, "g = 9.81\npotential = \"m*g*yy\""}}),
+             {"8:1: system.parameters.potential: ", "8:18: potential: \"yy\" is unknown; "});
+  check_told(point_on_floor({{10, ""}}),
+             {"11:1: system.constraints.position: this is of [state]; write [state] above it",
+              "12:1: system.constraints.velocity: "});
+  check_told(
+      "[liquid]\ncoordinates = [\"x\"]\ndomain = \"interval(low=0, high=1)\"\ndensity = 1\n"
+      "[liquid.parameters]\nw = 1\nfree = { top = { where = \"true\", pressure = \"1\" } }\n",
+      {"7:1: liquid.parameters.free: this is of [liquid]; write it above [liquid.parameters]"});
+  // A name of one's own is one where nothing is missed, and in a liquid.
+  const Outcome own = run_on("solve", point_on_floor({{6, "m = 2.0\npotential = 1"}}));
+  CHECK(own.code == 0);
+}
+
 TEST_CASE("a name that no method has is told beside what else is wrong") {
   const std::string wrong = "unknown method \"activ-set\"; did you mean \"active-set\"?";
   check_told(
