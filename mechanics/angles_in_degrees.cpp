@@ -20,6 +20,21 @@ bool is_plain_number(const Tape& tape, NodeId node) {
   return tape.operation(node) == Operation::literal;
 }
 
+/// A whole number beyond a turn.
+bool may_be_degrees(double angle) {
+  const double size = std::abs(angle);
+  return size > 2 * std::numbers::pi && size == std::floor(size);
+}
+
+bool turns(Operation operation) {
+  return operation == Operation::sin || operation == Operation::cos || operation == Operation::tan;
+}
+
+/// "line 4: the angle".
+std::string at_line(const expression::LagrangianModel& model, NodeId node) {
+  return "line " + std::to_string(model.sources.place(model.tape.origin(node)).line) + ": the angle ";
+}
+
 }  // namespace
 
 std::vector<std::string> angles_in_degrees(const LagrangianSystem& system) {
@@ -27,15 +42,33 @@ std::vector<std::string> angles_in_degrees(const LagrangianSystem& system) {
   const Tape& tape = model.tape;
   std::vector<std::string> found;
   for (NodeId node = 0; node < tape.size(); ++node) {
-    const Operation operation = tape.operation(node);
-    if (operation != Operation::sin && operation != Operation::cos && operation != Operation::tan) continue;
+    if (!turns(tape.operation(node))) continue;
     const NodeId angle = tape.a(node);
-    const double size = tape.is_constant(angle) ? std::abs(tape.constant(angle)) : 0;
-    if (!(size > 2 * std::numbers::pi) || size != std::floor(size) || !is_plain_number(tape, angle)) continue;
+    if (!tape.is_constant(angle) || !may_be_degrees(tape.constant(angle)) || !is_plain_number(tape, angle))
+      continue;
     const std::string text = written(tape, angle, model.coordinates);
-    found.push_back("line " + std::to_string(model.sources.place(tape.origin(node)).line) + ": the angle " +
-                    expression::quoted(text) + " = " + expression::count_text(tape.constant(angle)) +
+    found.push_back(at_line(model, node) + expression::quoted(text) + " = " +
+                    expression::count_text(tape.constant(angle)) +
                     " counts in radians; where degrees are meant, write " + text + "*pi/180");
+  }
+  return found;
+}
+
+std::vector<std::string> angles_in_degrees(const LagrangianSystem& system, const State& state) {
+  const expression::LagrangianModel& model = system.model();
+  const Tape& tape = model.tape;
+  std::vector<std::string> found = angles_in_degrees(system);
+  std::vector<bool> is_told(model.coordinates.size(), false);
+  for (NodeId node = 0; node < tape.size(); ++node) {
+    if (!turns(tape.operation(node)) || tape.operation(tape.a(node)) != Operation::coordinate) continue;
+    const std::size_t i = tape.a(tape.a(node));
+    const double position = state.q[static_cast<Index>(i)];
+    if (is_told[i] || !may_be_degrees(position)) continue;
+    is_told[i] = true;
+    const std::string number = expression::count_text(position);
+    found.push_back(at_line(model, node) + expression::quoted(model.coordinates[i]) + ", which stands at " +
+                    number + ", counts in radians; where degrees are meant, give its position as \"" +
+                    number + "*pi/180\"");
   }
   return found;
 }

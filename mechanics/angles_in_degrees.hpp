@@ -8,10 +8,15 @@
 namespace mechanics {
 
 class LagrangianSystem;
+struct State;
 
 /// A sentence for each sine, cosine or tangent of a whole number beyond a turn, as sin(30): it is in radians,
 /// and was hardly meant so.
 std::vector<std::string> angles_in_degrees(const LagrangianSystem&);
+
+/// These, and one for each coordinate of which a sine, cosine or tangent is taken and that stands at such a
+/// number.
+std::vector<std::string> angles_in_degrees(const LagrangianSystem&, const State&);
 
 /// Why a state is refused, told with such an angle, which may be the cause. `place`: of an error without one.
 convex::InvalidInput refused_state(const convex::InvalidInput& error, convex::Place place,

@@ -164,7 +164,7 @@ std::vector<std::string> what_is_added(Scene& scene) {
       lines.push_back("singular: " + added_row_text(scene, k) + "; it is no derivative of one contact, and " +
                       "stands beside U and s");
     if (scene.system)
-      for (std::string& angle : mechanics::angles_in_degrees(*scene.system))
+      for (std::string& angle : mechanics::angles_in_degrees(*scene.system, scene.state))
         lines.push_back(std::move(angle));
     return lines;
   } catch (const convex::InvalidInput& refused) {

@@ -188,7 +188,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
         fmt::format("the motion comes back after {} of the {} periods already; give "
                     "--periods {}",
                     fewest, options.periods, fewest));
-  for (std::string& said : mechanics::angles_in_degrees(*system)) answer.warnings.push_back(std::move(said));
+  for (std::string& said : mechanics::angles_in_degrees(*system, guess)) answer.warnings.push_back(std::move(said));
   return answer;
 }
 

@@ -243,7 +243,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
         "it as "
         "velocity = { " +
         system->coordinates().front() + " = 0 }");
-  for (std::string& said : mechanics::angles_in_degrees(*system)) answer.warnings.push_back(std::move(said));
+  for (std::string& said : mechanics::angles_in_degrees(*system, state))
+    answer.warnings.push_back(std::move(said));
   return answer;
 }
 

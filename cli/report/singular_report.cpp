@@ -168,7 +168,7 @@ std::vector<std::string> warning_lines(const std::vector<Warning>& warnings) {
 std::vector<std::string> warning_lines(const SolvedScene& solved) {
   std::vector<std::string> lines = warning_lines(solved.warnings);
   if (solved.scene.system)
-    for (std::string& angle : mechanics::angles_in_degrees(*solved.scene.system))
+    for (std::string& angle : mechanics::angles_in_degrees(*solved.scene.system, solved.scene.state))
       lines.push_back(std::move(angle));
   return lines;
 }

@@ -181,7 +181,8 @@ std::vector<std::string> SweepScene::angles_in_degrees(const std::vector<std::ve
       const Problem problem = this->problem(at);
       const auto* text = std::get_if<SystemProblem>(&problem.content);
       if (text == nullptr) return {};
-      auto found = mechanics::angles_in_degrees(*mechanics::lagrangian_system(text->system, text->state));
+      const auto system = mechanics::lagrangian_system(text->system, text->state);
+      auto found = mechanics::angles_in_degrees(*system, system->state(text->state));
       if (!found.empty()) return found;
     } catch (const InvalidInput&) {  // the row of the point tells it
     }

@@ -110,6 +110,21 @@ TEST_CASE("a plain number beyond a turn in a sine is told as radians, and one th
   CHECK(run_on("solve", sliding("-45")).err.find("radians") != std::string::npos);
   for (const char* angle : {"\"30*pi/180\"", "6", "0.5", "\"10*pi\""})
     CHECK(run_on("solve", sliding(angle)).err.empty());
+  // So does a coordinate that is an angle.
+  const auto standing_at = [](const std::string& x) {
+    return point_on_floor(
+        {{4, "potential = \"m*g*y + sin(x) + cos(x)\""}, {11, "position = { x = " + x + ", y = 0.0 }"}});
+  };
+  for (const char* command : {"solve", "derive", "simulate"}) {
+    const Outcome told = run_on(command, standing_at("60") + "[simulate]\nuntil = 0.1\n");
+    const std::string words =
+        ": line 4: the angle \"x\", which stands at 60, counts in radians; where degrees are meant, "
+        "give its position as \"60*pi/180\"\n";
+    CAPTURE(told.err);
+    CHECK(told.err.ends_with(words));
+    CHECK(told.err.find(words) == told.err.rfind(words));  // once, of both functions
+  }
+  for (const char* x : {"\"60*pi/180\"", "6", "59.5"}) CHECK(run_on("solve", standing_at(x)).err.empty());
   const Folder folder;
   const std::string file = folder.write("a.toml", sliding("30"));
   const std::vector<std::string> ways[] = {{"explain", file},
