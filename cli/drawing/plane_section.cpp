@@ -38,7 +38,8 @@ std::array<Index, 2> axes_of(const SolvedScene& solved, const std::optional<std:
   const Index n = scene.problem.dimension();
   if (n < 2)
     throw InvalidInput("--plot: " + scene.file +
-                       " has one coordinate; a picture of the decomposition needs two");
+                       " has one coordinate; a picture of the decomposition needs two; of a mechanism [draw] "
+                       "says what there is to draw");
   if (plane) {
     const std::size_t comma = comma_of(*plane);
     if (comma == std::string::npos)

@@ -241,7 +241,8 @@ TEST_CASE("what cannot be drawn or is not there is refused before any work") {
   const Folder folder;
   const std::string one = folder.write("one.toml", "[projection]\nA = [[1]]\nz = [0]\n");
   for (const auto& [arguments, words] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"solve", one, "--plot", folder.path("x.svg")}, "a picture of the decomposition needs two"},
+           {{"solve", one, "--plot", folder.path("x.svg")},
+            "a picture of the decomposition needs two; of a mechanism [draw] says what there is to draw"},
            {{"solve", one, "--plot", folder.path("x.gif")}, "named .svg, .png or .pdf"},
            {{"chart", "--output", "x.gif"}, "named .svg, .png or .pdf"},
            {{"chart", "--method", "simplex"}, "there is no such method"},
