@@ -76,7 +76,9 @@ bool read_lagrangian(mechanics::LagrangianText& system, const TomlValue& table, 
       throw InvalidInput("system.coordinates: no list of names; write coordinates = [\"x\", \"y\"]",
                          coordinates == nullptr ? table.place : coordinates->place);
     if (coordinates == nullptr) return;
-    if (coordinates->array.empty() && needed)
+    const TomlValue* kinetic = table.find("kinetic");
+    const bool moves = kinetic != nullptr && kinetic->text.find('\'') != std::string::npos;
+    if (coordinates->array.empty() && moves && needed)
       throw InvalidInput("system.coordinates: empty; name what moves, coordinates = [\"x\", \"y\"]",
                          coordinates->place);
     for (const TomlValue& name : coordinates->array)
