@@ -138,7 +138,8 @@ std::optional<Value> value_by_entries(const FunctionNode& f, const Vector& x) {
   const auto entries = total ? entries_of(f, x.size()) : std::nullopt;
   if (!entries) return std::nullopt;
   for (Index i = 0; i < x.size(); ++i)
-    total = sum_of(*total, value_near((*entries)[static_cast<std::size_t>(i)], x.segment(i, 1), length_of(x)));
+    total =
+        sum_of(*total, value_near((*entries)[static_cast<std::size_t>(i)], x.segment(i, 1), length_of(x)));
   return total;
 }
 

@@ -228,7 +228,7 @@ Index GramPivoting::drop_negative() {
 
 /// Leaves `room` of the rows listed, those deepest below their edge.
 Index GramPivoting::choose_deepest(Index count, Index room) {
-  const auto deeper = [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
+  const auto deeper = [&](Index a, Index b) { return is_deeper(a, b); };
   // Whether rows are repeated is seen when a large block comes in first.
   const bool is_first = set_.size() == 0 && count >= few_rows && !all_known();
   const Index among = std::min(count, room);
@@ -268,10 +268,9 @@ Index GramPivoting::fill_block(Index fresh) {
   Index length = fresh;
   for (Index a = 0; a < m_ && end > fresh; ++a) {
     if (rows_.place(a) >= 0 || state_[a] != outside) continue;
-    const auto deeper = [&](Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
-    if (length == end && !deeper(list_[end - 1])) continue;
+    if (length == end && !is_deeper(a, list_[end - 1])) continue;
     Index at = length < end ? length++ : end - 1;
-    for (; at > fresh && deeper(list_[at - 1]); --at) list_[at] = list_[at - 1];
+    for (; at > fresh && is_deeper(a, list_[at - 1]); --at) list_[at] = list_[at - 1];
     list_[at] = a;
   }
   return length;

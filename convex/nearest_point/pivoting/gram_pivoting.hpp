@@ -97,6 +97,8 @@ class GramPivoting {
   Index list_violated(State state);
   bool has_negative() const;
   Index drop_negative();
+  /// Whether row a lies deeper below its edge, or closer to it, than row b.
+  bool is_deeper(Index a, Index b) const { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; }
   Index choose_deepest(Index count, Index room);
   Index skip_parallel_rows(Index count);
   bool take_in(Index count);

@@ -61,8 +61,7 @@ bool GramPivoting::pivot_by_single_steps() {
 Index GramPivoting::skip_parallel_rows(Index count) {
   const double* U = problem_.U.dense().data();
   const auto depth = [&](Index a) { return slack_[a] / row_scale_[a]; };
-  std::sort(list_, list_ + count,
-            [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
+  std::sort(list_, list_ + count, [&](Index a, Index b) { return is_deeper(a, b); });
   Index kept = 0;
   for (Index k = 0; k < count; ++k) {
     bool repeats = false;
@@ -135,8 +134,7 @@ bool GramPivoting::drop_most_negative() {
 bool GramPivoting::raise_in_turn(Index count) {
   const double scale = counted_violation();
   const Index turns = std::min(count, most_in_turn);
-  std::partial_sort(list_, list_ + turns, list_ + count,
-                    [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
+  std::partial_sort(list_, list_ + turns, list_ + count, [&](Index a, Index b) { return is_deeper(a, b); });
   for (Index k = 0; k < turns; ++k) {
     const Index a = list_[k];
     const double before = slack_[a];
