@@ -110,33 +110,15 @@ struct TriangleKernels : Packs<W, Fused> {
   }
 
   MOREAU_INLINE void forward(Index n, Index ld, const double* T, const double* inverse, double* x) {
-    double* const alone[] = {x};
-    forward_each(n, ld, T, inverse, alone);
-  }
-
-  /// Several vectors at once: each waits for its own entries alone.
-  template <int count>
-  MOREAU_INLINE void forward_each(Index n, Index ld, const double* T, const double* inverse,
-                                  double* const (&x)[count]) {
     for (Index j = 0; j < n; j += 8, T += 8 * ld) {
-      double solved[count][8];  // of which the compiler knows that nothing below changes it
-#pragma GCC unroll 4
-      for (int k = 0; k < count; ++k) {
-        P::store(solved[k], P::block_times(inverse + 16 * j, x[k] + j));
-        P::store(x[k] + j, P::load(solved[k]));
-      }
+      double solved[8];  // of which the compiler knows that nothing below changes it
+      P::store(solved, P::block_times(inverse + 16 * j, x + j));
+      P::store(x + j, P::load(solved));
       for (Index row = j + 8; row < n; row += 8) {
-        Pack sum[count];
-#pragma GCC unroll 4
-        for (int k = 0; k < count; ++k) sum[k] = P::load(x[k] + row);
+        Pack sum = P::load(x + row);
 #pragma GCC unroll 8
-        for (int c = 0; c < 8; ++c) {
-          const Pack column = P::load(T + c * ld + row);
-#pragma GCC unroll 4
-          for (int k = 0; k < count; ++k) P::subtract_product(sum[k], column, solved[k][c]);
-        }
-#pragma GCC unroll 4
-        for (int k = 0; k < count; ++k) P::store(x[k] + row, sum[k]);
+        for (int c = 0; c < 8; ++c) P::subtract_product(sum, P::load(T + c * ld + row), solved[c]);
+        P::store(x + row, sum);
       }
     }
   }

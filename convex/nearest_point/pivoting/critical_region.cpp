@@ -92,8 +92,8 @@ bool find_column(GramWorkingSet& set, Index j, CriticalRegion& region) {
 Index CriticalRegion::lines(const GramPoint& held) {
   const Index columns = held.n + held.size, stride = padded(columns), m = padded(held.all),
               side_by_side = held.all <= few_rows ? m * held.n : 0;
-  return (9 * stride + 2 * stride * columns + held.ld * columns + 6 * held.ld + 6 * padded(held.size) +
-          5 * m + side_by_side) /
+  return (10 * stride + 2 * stride * columns + padded(held.size) * held.size + 4 * held.ld +
+          6 * padded(held.size) + 5 * m + side_by_side) /
          8;
 }
 
@@ -103,12 +103,12 @@ CriticalRegion::CriticalRegion(GramPoint& held) : columns(held.n + held.size), s
   has_all = p.all <= few_rows;
   const Index k = padded(p.size), m = padded(p.all);
   arena.start(lines(held));
-  for (double** v : {&unit, &error, &length, &pull, &x, &x_leading, &x_rest, &y, &y_low})
+  for (double** v : {&unit, &over_unit, &error, &length, &pull, &x, &x_leading, &x_rest, &y, &y_low})
     *v = arena.take_filled(stride, 0.0);
   split = arena.take_filled(2 * stride * columns, 0.0);
-  balance = arena.take_filled(p.ld * columns, 0.0);
-  for (double** v : {&p.z, &p.w, &p.w_free, &p.r, &p.diagonal, &p.q}) *v = arena.take_filled(p.ld, 0.0);
-  for (double** v : {&p.lambda, &p.length, &p.pull, &p.held_slack}) *v = arena.take<double>(k);
+  gram = arena.take_filled(k * p.size, 0.0);
+  for (double** v : {&p.z, &p.w_free, &p.diagonal, &p.q}) *v = arena.take_filled(p.ld, 0.0);
+  for (double** v : {&p.lambda, &p.length, &p.pull, &p.held_slack}) *v = arena.take_filled(k, 0.0);
   p.rows = arena.take<Index>(k);
   for (double** v : {&level, &enter, &p.row_scale, &p.slack}) *v = arena.take_filled(m, 0.0);
   p.close = arena.take<Index>(m);
@@ -122,11 +122,16 @@ CriticalRegion::CriticalRegion(GramPoint& held) : columns(held.n + held.size), s
     length[i] = size;
     pull[i] = either_sign ? -size : size;
     unit[i] = std::ldexp(1.0, -std::ilogb(size));
+    over_unit[i] = 1 / unit[i];
   };
   for (Index i = 0; i < p.n; ++i) take_length(i, std::sqrt(p.diagonal[i]), true);
   for (Index j = 0; j < p.size; ++j) take_length(p.n + j, p.length[j], !(p.pull[j] > 0));
-  for (Index j = 0; j < columns; ++j)
-    std::copy_n(j < p.n ? p.A + j * p.n : p.U + p.rows[j - p.n] * p.n, p.n, balance + j * p.ld);
+  Matrix V = Matrix::Zero(p.ld, p.size);
+  for (Index j = 0; j < p.size; ++j) {
+    std::copy_n(p.U + p.rows[j] * p.n, p.n, V.col(j).data());
+    dense_kernels().forward(p.n, p.ld, p.T, p.inverse, V.col(j).data());
+    for (Index i = 0; i <= j; ++i) gram[i * k + j] = gram[j * k + i] = V.col(i).dot(V.col(j));
+  }
   if (!has_all) return;
   raw = arena.take<double>(m * p.n);
   Index rows[few_rows];

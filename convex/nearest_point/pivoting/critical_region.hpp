@@ -34,11 +34,11 @@ struct CriticalRegion {
   Index columns = 0, stride = 0;  ///< n + k, and that in whole packs
   bool has_all = false;           ///< rows are few
   /// Powers of 2: an entry of (z, s_S) times its unit is about a part of ||z||_(A⁻¹). Columns are over them.
-  double* unit;
+  double *unit, *over_unit;  ///< over_unit: 1 over them
   /// By eights of rows: of each column eight leading parts and eight rests side by side, so that memory is
   /// read in order.
   double* split;
-  double* balance;  ///< columns of A, then rows of U_S
+  double* gram;  ///< the products of the v_k = L⁻¹u_k over S: columns of padded(k)
   /// What an entry of (z, s_S), in its unit, may add to the error ||·||_A of q, by its size; and what
   /// rounding may in sums with the rest, by the size of the largest.
   double* error;

@@ -28,7 +28,6 @@ struct CriticalRegionSteps : Kernels<W, Fused> {
     for (Index i = 0; i < ld(region); i += 8) {
       const Pack x = P::load_before(z + i, z + n), size = K::size(P::times(x, P::load(region.unit + i)));
       P::store(p.z + i, x);
-      P::store(p.w_free + i, x);
       most = i > 0 ? P::larger(most, size) : size;
     }
     double largest = 0;
@@ -82,35 +81,23 @@ struct CriticalRegionSteps : Kernels<W, Fused> {
     }
   }
 
-  /// `count` packs from `first` on: what w and r are, before these are whitened.
-  template <int count>
-  MOREAU_INLINE void balance(const CriticalRegion& region, Index first) {
+  /// ||V lambda||², V the v_k over the working set.
+  MOREAU_INLINE Pack pushes(const CriticalRegion& region) {
     const GramPoint& p = region.p;
-    Pack pull[count], product[count], other[count];
-#pragma GCC unroll 4
-    for (int r = 0; r < count; ++r) pull[r] = P::load(p.z + first + 8 * r);
-    P::clear(product), P::clear(other);
-    const double* column = region.balance + first;
-    Index j = 0;
-    for (; j + 2 <= p.n; j += 2, column += 2 * ld(region))
-#pragma GCC unroll 4
-      for (int r = 0; r < count; ++r) {
-        P::add_product(product[r], P::load(column + 8 * r), region.y[j]);
-        P::add_product(other[r], P::load(column + ld(region) + 8 * r), region.y[j + 1]);
+    Pack square{};
+    for (Index r = 0; r < p.size; r += 8) {
+      Pack sum[2];
+      P::clear(sum);
+      const double* column = region.gram + r;
+      Index k = 0;
+      for (; k + 2 <= p.size; k += 2, column += 2 * padded(p.size)) {
+        P::add_product(sum[0], P::load(column), p.lambda[k]);
+        P::add_product(sum[1], P::load(column + padded(p.size)), p.lambda[k + 1]);
       }
-    if (j < p.n) {
-#pragma GCC unroll 4
-      for (int r = 0; r < count; ++r) P::add_product(product[r], P::load(column + 8 * r), region.y[j]);
-      column += ld(region);
+      if (k < p.size) P::add_product(sum[0], P::load(column), p.lambda[k]);
+      P::add_products(square, P::plus(sum[0], sum[1]), P::load(p.lambda + r));
     }
-    for (j = p.n; j < region.columns; ++j, column += ld(region))
-#pragma GCC unroll 4
-      for (int r = 0; r < count; ++r) P::add_product(pull[r], P::load(column + 8 * r), region.y[j]);
-#pragma GCC unroll 4
-    for (int r = 0; r < count; ++r) {
-      P::store(p.w + first + 8 * r, pull[r]);
-      P::store(p.r + first + 8 * r, P::minus(pull[r], P::plus(product[r], other[r])));
-    }
+    return square;
   }
 
   /// Work on all of `size` doubles, by as many packs at once as registers allow.
@@ -127,6 +114,24 @@ struct CriticalRegionSteps : Kernels<W, Fused> {
     for (; first < size; first += 8) work.template operator()<1>(first);
   }
 
+  /// The norms of q and z by those sums; of z by itself where these cancel, as where it is 0.
+  MOREAU_INLINE void measure_norms(CriticalRegion& region, double of_z, double of_rows, double of_pushes) {
+    constexpr double much = 0x1p-20;
+    GramPoint& p = region.p;
+    const double q_square = of_z + of_rows, z_square = of_z - of_rows + of_pushes;
+    p.acceleration_norm = q_square < 0 ? 0 : std::sqrt(q_square);
+    if (z_square > much * of_pushes) {
+      p.z_norm = std::sqrt(z_square);
+      return;
+    }
+    for (Index i = 0; i < ld(region); i += 8) P::store(p.w_free + i, P::load(p.z + i));
+    K::forward(p.n, ld(region), p.T, p.inverse, p.w_free);
+    p.z_norm = std::sqrt(K::dot(ld(region), p.w_free, p.w_free));
+  }
+
+  /// Beside A q = z + Uᵀlambda, with V = L⁻¹U_Sᵀ and w_free = L⁻¹z, is L⁻¹A q = w_free + V lambda; so
+  /// ||q||_A² = q·z + lambda·s_S and ||w_free||² = q·z - lambda·s_S + ||V lambda||². What the printed numbers
+  /// miss of these equations is A q_low - Uᵀlambda_low, and what remains.
   MOREAU_INLINE void take_affine_point(CriticalRegion& region, const double* z, const double* s) {
     GramPoint& p = region.p;
     const Index n = p.n, rows_beside = region.has_all ? padded(p.all) : 0;
@@ -135,34 +140,32 @@ struct CriticalRegionSteps : Kernels<W, Fused> {
     by_packs(
         region.stride, [&]<int count>(Index first)
                            __attribute__((always_inline)) { apply<count>(region, first); });
-    by_packs(
-        ld(region), [&]<int count>(Index first)
-                        __attribute__((always_inline)) { balance<count>(region, first); });
 
-    Pack sum[8], least = P::plus(Pack{}, infinite);  // of missing, rounded, ‖q‖_D, ‖q‖_A, ‖z‖, ‖Aq - ...‖
+    double of_rows = 0;  // lambda·s_S
+    for (Index k = 0; k < p.size; ++k) {
+      p.lambda[k] = region.y[n + k];
+      of_rows += p.lambda[k] * s[p.rows[k]];
+    }
+    // Sums: what is missing, ‖q_low‖_D², ‖q‖_D², q·z, ‖V lambda‖², what the equations miss, whether all is
+    // finite.
+    Pack sum[8], least = P::plus(Pack{}, infinite);
     P::clear(sum);
     for (Index i = 0; i < region.stride; i += 8) {
       const Pack x = P::load(region.x + i), y = P::load(region.y + i), length = P::load(region.length + i);
       P::add_products(sum[0], K::size(x), P::load(region.error + i));
+      P::add_products(sum[5], K::size(P::load(region.y_low + i)), length);
       const Pack size = P::larger(P::times(y, length), P::times(y, P::load(region.pull + i)));
       least = P::smaller(P::where_larger(length, 0, size, infinite), least);
     }
-    for (Index k = 0; k < p.size; ++k) p.lambda[k] = region.y[n + k];
     for (Index i = 0; i < ld(region); i += 8) {
       const Pack q = P::first(P::load(region.y + i), n - i), low = P::first(P::load(region.y_low + i), n - i),
                  diagonal = P::load(p.diagonal + i);
       P::store(p.q + i, q);
       P::add_products(sum[1], P::times(low, diagonal), low);
       P::add_products(sum[2], P::times(q, diagonal), q);
+      P::add_products(sum[3], q, P::load(p.z + i));
     }
-    double* const whitened[] = {p.w, p.w_free, p.r};
-    K::forward_each(n, ld(region), p.T, p.inverse, whitened);
-    for (Index i = 0; i < ld(region); i += 8) {
-      const Pack w = P::load(p.w + i), free = P::load(p.w_free + i), r = P::load(p.r + i);
-      P::add_products(sum[3], w, w);
-      P::add_products(sum[4], free, free);
-      P::add_products(sum[5], r, r);
-    }
+    sum[4] = pushes(region);
     for (Index r = 0; r < rows_beside; r += 8) {
       K::dots(n, region.raw + r * n, p.q, p.slack + r);
       const Pack level = P::load(region.level + r), slack = P::minus(P::load(p.slack + r), level),
@@ -179,9 +182,8 @@ struct CriticalRegionSteps : Kernels<W, Fused> {
     region.remaining = total[0] + region.error_of_sums * largest;
     region.rounded = root[1];
     p.magnitude = root[2];
-    p.acceleration_norm = root[3];
-    p.z_norm = root[4];
-    p.stationarity = root[5];
+    p.stationarity = total[5] + 2 * region.remaining;
+    measure_norms(region, total[3], of_rows, total[4]);
     region.least = total[6] - K::largest(P::times(least, -1));
   }
 };
