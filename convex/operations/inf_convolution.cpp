@@ -52,14 +52,14 @@ class InfConvolution : public Operation {
         length_of(found.least.head(x.size())) > far_out * length_of(x))
       found.value.error = infinity;
     if (found.least.size() >= x.size() && !is_of_rounding(found.value)) {
-      const Value at_w = value_of_split(x, found.least.head(x.size()));
+      const Value at_w = value_of_split(x, found.least.head(x.size()), found.slope);
       found.value = between_points(found.value, at_w, found.slope, conjugate(), x);
     }
     const OneAtATime question(OneAtATime::Kind::least_on_line);  // one in another would take its square
     if (x.size() == 1 && question.first() && !is_of_rounding(found.value)) {
       // The least over w is found from values of f and g alone.
       const double start = found.least.size() > 0 ? found.least[0] : x[0] / 2;
-      const auto at = [&](double w) { return value_of_split(x, Vector::Constant(1, w)); };
+      const auto at = [&](double w) { return value_of_split(x, Vector::Constant(1, w), found.slope); };
       const Value least = least_on_line(at, start);
       if (least.error < found.value.error) found.value = least;
     }
@@ -126,20 +126,26 @@ class InfConvolution : public Operation {
     return std::nullopt;
   }
   /// f(x - w) + g(w) with one of the parts moved to the nearest point of its domain: where the other is steep
-  /// there, even a point that counts as a member is too far. What is too far is too low.
-  Value value_of_split(const Vector& x, const Vector& w) const {
+  /// there, even a point that counts as a member is too far. What is too far is too low, to first order by
+  /// what it is moved times the slope at x; where a part bends sharply there, as the root of u at 0, by more.
+  Value value_of_split(const Vector& x, const Vector& w, const std::optional<Vector>& slope) const {
+    constexpr double where_it_bends = 4;
     const double size = length_of(x) + length_of(w);
+    const auto sum_with = [&](const Value& of_one, const NearValue& other) {
+      const double steep = slope && slope->allFinite() ? where_it_bends * length_of(*slope) : infinity;
+      return sum_of(sum_of(of_one, other.value), {0, other.moved > 0 ? steep * other.moved : 0});
+    };
     const Vector in_f = nearest_member(f_, difference(x, w).hi, size), in_g = nearest_member(g_, w, size);
-    const Value by_g = sum_of(value_near(f_, difference(x, in_g), size), g_.evaluate(in_g));
+    const Value by_g = sum_with(g_.evaluate(in_g), near_value(f_, difference(x, in_g), size));
     if (f_.facts().finite) return by_g;
-    const Value by_f = sum_of(f_.evaluate(in_f), value_near(g_, difference(x, in_f), size));
+    const Value by_f = sum_with(f_.evaluate(in_f), near_value(g_, difference(x, in_f), size));
     return by_f.value > by_g.value ? by_f : by_g;
   }
   /// The nearest point of the domain, where a formula gives it: the end of an interval, if f has a value
   /// there.
   static Vector nearest_member(const Function& f, const Vector& x, double size) {
     const Facts facts = f.facts();
-    if (facts.finite || !(facts.indicator || facts.separable)) return x;
+    if (facts.finite) return x;
     if (x.size() == 1)
       if (const auto domain = domain_of_one(f)) {
         const Vector inside = Vector::Constant(1, std::clamp(x[0], domain->low, domain->high));

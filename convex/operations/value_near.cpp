@@ -60,14 +60,14 @@ double length_of(const Vector& x) {
   return has_squares(length) ? length : x.stableNorm();
 }
 
-Value value_near(const Function& f, const Vector& y, double size) {
+NearValue near_value(const Function& f, const Vector& y, double size) {
   const Value value = f.evaluate(y);
   const bool decided = !(value.value == infinity) && std::isfinite(value.error);
-  if (decided || f.facts().finite || !(size > 0)) return value;
+  if (decided || f.facts().finite || !(size > 0)) return {value};
   // A function that is steep at its domain's edge gains by leaving it; the stiffer, the less. One that rises
   // there without end, as |p|³/s² at s = 0, is told the better the farther the point is inside.
   const double near = std::min(size, 1.0);
-  Value best = value;
+  NearValue best{value};
   double least = infinity;
   for (const double stiff : {stiffest_weight, nearest_point_weight}) {
     const double weight = f.facts().indicator ? 1 : stiff / (near * near);
@@ -75,47 +75,55 @@ Value value_near(const Function& f, const Vector& y, double size) {
     WorkLimit::count(WorkLimit::of_a_nearest_point);
     const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), Look{});
     if (nearest.x.size() != y.size()) continue;
-    const Value membership = indicated(length_of(nearest.x - y), size);
+    const double moved = length_of(nearest.x - y);
+    const Value membership = indicated(moved, size);
     if (membership.value > 0) continue;
     const Value inside = f.evaluate(nearest.x);
     if (!std::isfinite(inside.value)) continue;
     const double rise = rise_towards(f, y, nearest.x, inside);
-    if (rise == infinity) return {infinity, infinity};
+    if (rise == infinity) return {{infinity, infinity}};
     const Value farther = f.evaluate(2 * nearest.x - y);
     const double fall = std::isfinite(farther.value) ? std::max(0.0, inside.value - farther.value) : 0;
     const Value found{inside.value, inside.error + membership.error + rise};
-    if (best.value == infinity || found.error + fall < least) best = found;
+    if (best.value.value == infinity || found.error + fall < least) best = {found, moved};
     least = std::min(least, found.error + fall);
     if (rise + fall == 0) break;
   }
   return best;
 }
 
-Value value_near(const Function& f, const DoubleDoubleVector& y, double size) {
+NearValue near_value(const Function& f, const DoubleDoubleVector& y, double size) {
   if (!y.lo.isZero(0) && y.lo.allFinite())
     if (const auto own = f.node().evaluate_pair(y); own && std::isfinite(own->value + own->error))
-      return *own;
-  Value found = value_near(f, y.hi, size);
+      return {*own};
+  NearValue near = near_value(f, y.hi, size);
+  Value& found = near.value;
   const bool by_formula = found.error <= roundings_of_a_formula * unit_roundoff * std::abs(found.value);
-  if (!std::isfinite(found.value) || y.lo.isZero(0) || !y.lo.allFinite()) return found;
+  if (!std::isfinite(found.value) || y.lo.isZero(0) || !y.lo.allFinite()) return near;
   const std::optional<Vector> v = f.subgradient(y.hi);
   if (!v || !v->allFinite()) {
     found.error += change_along(f, y, found);
-    return found;
+    return near;
   }
   const double more = v->dot(y.lo);
   if (!by_formula && std::abs(more) <= found.error) {
     found.error += std::abs(more);
-    return found;
+    return near;
   }
   found.value += more;
   found.error += roundings_of_a_term * unit_roundoff * v->cwiseAbs().dot(y.lo.cwiseAbs());
-  if (std::abs(more) <= unit_roundoff * std::abs(found.value)) return found;
+  if (std::abs(more) <= unit_roundoff * std::abs(found.value)) return near;
   // Along y.lo the slope is between those at both ends.
   const std::optional<Vector> at_end = f.subgradient(beyond(y.hi, y.lo));
   const bool bounded = at_end && at_end->allFinite();
   found.error += bounded ? (*at_end - *v).cwiseAbs().dot(y.lo.cwiseAbs()) : std::abs(more);
-  return found;
+  return near;
+}
+
+Value value_near(const Function& f, const Vector& y, double size) { return near_value(f, y, size).value; }
+
+Value value_near(const Function& f, const DoubleDoubleVector& y, double size) {
+  return near_value(f, y, size).value;
 }
 
 DoubleDoubleVector quotient(const Vector& x, double s) {

@@ -92,3 +92,21 @@ TEST_CASE("the distance to a set without an end is 0 at its points, alone and in
       "inf_convolution(" + std::string(half_line) + ",envelope(indicator(orthant()),1))", 1);
   for (const double x : {-13.741, 0.0, 13.741}) CHECK(std::abs(sum(Vector::Constant(1, x))) <= 1e-9);
 }
+
+TEST_CASE(
+    "beside a domain's edge where the conjugate of 1/x bends without bound, the error counts what members "
+    "miss") {
+  // Slopes of log(sum exp) are in the simplex, those of 1/x are negative: at y with y_1 + y_2 = 1, y_3 < 0,
+  // only one split is left, and the supremum is not attained. It is sum y_i log y_i - 2 sqrt(-y_3).
+  const Function f = samples::function("sum(inverse_power(1), log_sum_exp())", 3);
+  for (const double first : {1.0, 0.5, 0.25, 0.875})
+    for (const double third : {-1.0, -4.0, -0.25, -0.03125}) {
+      CAPTURE(first);
+      CAPTURE(third);
+      const double rest = 1 - first,
+                   entropy = first * std::log(first) + (rest > 0 ? rest * std::log(rest) : 0);
+      const Value found = f.conjugate().evaluate(Eigen::Vector3d(first, rest, third));
+      CHECK(std::abs(found.value - (entropy - 2 * std::sqrt(-third))) <= found.error);
+      CHECK(found.error <= 1e-5);
+    }
+}
