@@ -110,3 +110,21 @@ TEST_CASE(
       CHECK(found.error <= 1e-5);
     }
 }
+
+TEST_CASE(
+    "at a corner of the domain of a conjugate the one split that is left has its value within the error") {
+  struct Corner {
+    const char* f;
+    std::vector<double> at;
+    double value;  ///< of the parts at their corners
+  };
+  for (const Corner& corner : {Corner{"sum(logistic(), scale(max(), 0.5))", {1.5}, 0},
+                               {"sum(scale(max(), 0.5), max(), hinge(), logistic())", {2.5}, 0}}) {
+    CAPTURE(corner.f);
+    const auto n = static_cast<convex::Index>(corner.at.size());
+    const Value found =
+        samples::function(corner.f, n).conjugate().evaluate(Eigen::Map<const Vector>(corner.at.data(), n));
+    CHECK(std::abs(found.value - corner.value) <= found.error);
+    CHECK(found.error <= 1e-4);
+  }
+}
