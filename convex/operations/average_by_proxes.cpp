@@ -8,6 +8,7 @@
 #include "convex/gamma0/work_limit.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/nearest_member.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/root_bracket.hpp"
 #include "convex/operations/value_near.hpp"
@@ -152,12 +153,13 @@ std::optional<Value> average_at_end_of_domain(const AverageOf& of, const Vector&
     beyond.add(two_product(of.t, p));
     beyond.add(two_product(1 - of.t, q));
     beyond.add(-x[0]);
-    if (beyond.value() == 0) return average_with_second(of, Vector::Constant(1, q), x);
+    if (beyond.value() == 0) return average_with_second(of, Vector::Constant(1, q), x, Vector::Zero(1));
   }
   return std::nullopt;
 }
 
-Value average_with_second(const AverageOf& of, const Vector& q, const Vector& x) {
+Value average_with_second(const AverageOf& of, const Vector& q, const Vector& x,
+                          const std::optional<Vector>& slope) {
   DoubleDoubleVector p(x.size());
   for (Index i = 0; i < x.size(); ++i) {
     const DoubleDouble part = two_product(1 - of.t, q[i]), left = two_sum(x[i], -part.hi);
@@ -166,7 +168,10 @@ Value average_with_second(const AverageOf& of, const Vector& q, const Vector& x)
     p.lo[i] = (((left.hi - back.hi) - back.lo) + (left.lo - part.lo)) / of.t;
   }
   const double size = x.norm() + p.hi.norm() + q.norm();
-  return sum_at(of, value_near(of.f, p, size), of.g.evaluate(q), p.hi - q);
+  const NearValue near = near_value(of.f, p, size);
+  const double miss =
+      of.t * std::max(near.moved, miss_of(of.f, p.hi, size)) + (1 - of.t) * miss_of(of.g, q, size);
+  return sum_of(sum_at(of, near.value, of.g.evaluate(q), p.hi - q), {0, cost_of_miss(miss, slope)});
 }
 
 std::optional<AverageAt> average_by_proxes(const AverageOf& of, const Vector& x) {
@@ -175,11 +180,13 @@ std::optional<AverageAt> average_by_proxes(const AverageOf& of, const Vector& x)
   const auto at = MeanRoot(of, x).find();
   if (!at) return std::nullopt;
   const AverageOf turned{of.g, of.f, 1 - of.t, of.gamma, of.M};
-  const Value first = average_with_second(of, at->q, x), second = average_with_second(turned, at->p, x);
+  const Vector slope = of.M.multiply(at->u - x) / of.gamma;
+  const Value first = average_with_second(of, at->q, x, slope),
+              second = average_with_second(turned, at->p, x, slope);
   const Value above = most(first) <= most(second) ? first : second, least = below(of, *at, x);
   if (!std::isfinite(above.value) || !std::isfinite(least.value)) return std::nullopt;
   const double open = std::abs(above.value - least.value) + above.error + least.error;
-  return AverageAt{{above.value, open}, of.M.multiply(at->u - x) / of.gamma};
+  return AverageAt{{above.value, open}, slope};
 }
 
 }  // namespace convex::inline operations

@@ -20,8 +20,9 @@ struct AverageAt {
 };
 
 /// t f(p) + (1-t) g(q) + t(1-t)/(2 gamma) ||p - q||² with t p + (1-t) q = x, q given: no less than the
-/// average at x.
-Value average_with_second(const AverageOf&, const Vector& q, const Vector& x);
+/// average at x, whose slope there tells what it costs that the points may miss their domains.
+Value average_with_second(const AverageOf&, const Vector& q, const Vector& x,
+                          const std::optional<Vector>& slope);
 
 /// At an end of the domain, where p and q are at the ends of theirs; none elsewhere, and for more entries
 /// than one.

@@ -8,6 +8,7 @@
 #include "convex/operations/composed_prox.hpp"
 #include "convex/operations/exact_end.hpp"
 #include "convex/operations/line_supremum.hpp"
+#include "convex/operations/nearest_member.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
@@ -126,52 +127,19 @@ class InfConvolution : public Operation {
     return std::nullopt;
   }
   /// f(x - w) + g(w) with one of the parts moved to the nearest point of its domain: where the other is steep
-  /// there, even a point that counts as a member is too far. What is too far is too low, to first order by
-  /// what it misses times the slope at x; where a part bends sharply there, as the root of u at 0, by more.
+  /// there, even a point that counts as a member is too far.
   Value value_of_split(const Vector& x, const Vector& w, const std::optional<Vector>& slope) const {
-    constexpr double where_it_bends = 4;
     const double size = length_of(x) + length_of(w);
-    const double steep = slope && slope->allFinite() ? where_it_bends * length_of(*slope) : infinity;
     const auto with = [&](const Function& one, const Member& in, const Function& other) {
       const DoubleDoubleVector rest = difference(x, in.at);
       const NearValue beside = near_value(other, rest, size);
-      const Member in_other = nearest_member(other, rest.hi, size);
-      const double miss = in.miss + in_other.miss + std::max(beside.moved, length_of(in_other.at - rest.hi));
-      return sum_of(sum_of(one.evaluate(in.at), beside.value), {0, miss > 0 ? steep * miss : 0});
+      const double miss = in.miss + std::max(beside.moved, miss_of(other, rest.hi, size));
+      return sum_of(sum_of(one.evaluate(in.at), beside.value), {0, cost_of_miss(miss, slope)});
     };
     const Value by_g = with(g_, nearest_member(g_, w, size), f_);
     if (f_.facts().finite) return by_g;
     const Value by_f = with(f_, nearest_member(f_, difference(x, w).hi, size), g_);
     return by_f.value > by_g.value ? by_f : by_g;
-  }
-  /// A point of a domain but for what it may miss of it.
-  struct Member {
-    Vector at;
-    double miss = 0;
-  };
-  /// The nearest point of the domain; of an interval its end, if f has a value there.
-  static Member nearest_member(const Function& f, const Vector& x, double size) {
-    constexpr double roundings = 4;  // of the ends of an interval, and of a prox
-    const Facts facts = f.facts();
-    if (facts.finite) return {x};
-    if (x.size() == 1)
-      if (const auto domain = domain_of_one(f)) {
-        const auto& [low, high] = *domain;
-        const Vector inside = Vector::Constant(1, std::clamp(x[0], low, high));
-        const auto margin = [&](double end) { return roundings * unit_roundoff * std::abs(end); };
-        const bool at_low = std::isfinite(low) && inside[0] <= low + margin(low),
-                   at_high = std::isfinite(high) && inside[0] >= high - margin(high);
-        const double miss = std::max(at_low ? margin(low) : 0, at_high ? margin(high) : 0);
-        if (std::isfinite(f.evaluate(inside).value)) return {inside, miss};
-      }
-    const double near = std::min(size, 1.0), weight = facts.indicator ? 1 : stiffest_weight / (near * near);
-    if (!std::isfinite(weight)) return {x};
-    const Prox found = f.prox(x, Metric::diagonal(Vector::Constant(x.size(), weight)), Look{});
-    if (found.x.size() != x.size() || !found.x.allFinite()) return {x, infinity};
-    // A program finds a point of a domain but for so much, whatever it says of its error in that metric.
-    const bool by_formula = dynamic_cast<const Operation*>(&f.node()) == nullptr;
-    const double part = by_formula ? roundings * unit_roundoff : accuracy_of_prox;
-    return {found.x, found.x == x ? 0 : part * length_of(found.x)};
   }
   /// f(w) + g(x - w) by g's own formula: of a g moved far the terms of q are large, and cancel. It is above
   /// the minimum by no more than the square of what w is off by. None where the prox of f gave up,

@@ -65,7 +65,8 @@ class ProximalAverage : public Operation {
     if (by_proxes && is_of_rounding(by_proxes->value)) return by_proxes->value;
     ByProgram found = by_program(x);
     if (found.least.size() >= x.size() && !is_of_rounding(found.value))
-      found.value = between_points(found.value, average_with_second(average, found.least.head(x.size()), x),
+      found.value = between_points(found.value,
+                                   average_with_second(average, found.least.head(x.size()), x, found.slope),
                                    found.slope, conjugate(), x);
     if (by_proxes && by_proxes->value.error < found.value.error) found = {by_proxes->value, by_proxes->v};
     return settled_value(found.value, found.slope, conjugate(), x);

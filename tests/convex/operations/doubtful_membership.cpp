@@ -128,3 +128,21 @@ TEST_CASE(
     CHECK(found.error <= 1e-4);
   }
 }
+
+TEST_CASE("a proximal average at a corner of its domain, one part steep there, is told within its error") {
+  // p <= 0 and q in the simplex average to x in one way: p = (0, 0, -c), q = (a, 1 - a, 0).
+  for (const double t : {0.25, 0.5, 0.75})
+    for (const double c : {0.03125, 1.0, 9.0})
+      for (const double a : {1.0, 0.25}) {
+        CAPTURE(t);
+        CAPTURE(c);
+        CAPTURE(a);
+        const Vector p = Eigen::Vector3d(0, 0, -c), q = Eigen::Vector3d(a, 1 - a, 0);
+        const std::string text = "proximal_average(dilate(negative_power(0.5), -1), indicator(simplex(1)), " +
+                                 std::to_string(t) + ", 1)";
+        const Value found = samples::function(text, 3).evaluate(t * p + (1 - t) * q);
+        const double average = -t * std::sqrt(c) + t * (1 - t) / 2 * (p - q).squaredNorm();
+        CHECK(std::abs(found.value - average) <= found.error);
+        CHECK(found.error <= 1e-4);
+      }
+}
