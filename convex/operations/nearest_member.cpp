@@ -39,8 +39,9 @@ Member nearest_member(const Function& f, const Vector& x, double size) {
   if (found.x.size() != x.size() || !found.x.allFinite()) return {x, infinity};
   // A program finds a point of a domain but for so much, whatever it says of its error in that metric.
   const bool by_formula = dynamic_cast<const Operation*>(&f.node()) == nullptr;
-  const double part = by_formula ? roundings_of_a_member * unit_roundoff : accuracy_of_prox;
-  return {found.x, found.x == x ? 0 : part * length_of(found.x)};
+  const double miss =
+      by_formula ? roundings_of_a_member * unit_roundoff * length_of(found.x) : accuracy_of_prox * size;
+  return {found.x, found.x == x ? 0 : miss};
 }
 
 double miss_of(const Function& f, const Vector& x, double size) {
