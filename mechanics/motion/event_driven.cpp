@@ -189,10 +189,10 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
       slope = expansion_.rate(zero.which);
     } else {
       if (is_weak_[k]) return tau;
-      expansion_.set(there_);
-      const HeldRows::Answer answer = expansion_.acceleration(counted_);
+      const std::optional<HeldRows::Answer> answer = acceleration_off_zero(there_, {}, tau);
+      if (!answer) return tau;  // where T is not definite: `fits` halves the step
       for (std::size_t a = 0; a < counted_.size(); ++a)
-        if (counted_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
+        if (counted_[a] == zero.which) value = answer->lambda[static_cast<Index>(a)];
       slope = slope_at(coefficients(next.lambda, zero.which), tau);
     }
     // Where rounding is all there is of value and slope, a correction leads anywhere.

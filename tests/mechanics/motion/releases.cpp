@@ -204,3 +204,22 @@ TEST_CASE("a contact leaves where its push and that of the rod behind it come to
   CHECK((found.end().q - once.end().q).norm() <= 1e-12);
   CHECK((found.end().v - once.end().v).norm() <= 1e-12);
 }
+
+TEST_CASE(
+    "a slope that rolls back lets go of a pendulum where it hangs, though its azimuth has no inertia there") {
+  // With a sphere's angles T is not definite at th = 0. There the weight, -sin th, turns towards the motion's
+  // end: th = 1/2 - 7/10 t at first, and th'' = -sin th from t = 5/7 on, with th' = -7/10.
+  const SystemText text{{"th", "ph"},
+                        "(th'^2 + sin(th)^2*ph'^2)/2",
+                        "-cos(th)",
+                        {},
+                        {},
+                        {},
+                        {{"plane", "ph = 0"}, {"slope", "th >= 1/2 - 7/10*t"}}};
+  const Followed found = followed(text, state({0.5, 0}, {-0.7, 0}), 3);
+  REQUIRE(found.motion.status() == MotionStatus::done);
+  REQUIRE(found.events.size() == 1);
+  CHECK(found.events[0].kind == EventKind::release);
+  CHECK(std::abs(found.events[0].t - 5.0 / 7) <= 1e-15);
+  CHECK(std::abs(found.end().v[0] * found.end().v[0] / 2 + 1 - std::cos(found.end().q[0]) - 0.245) <= 1e-14);
+}
