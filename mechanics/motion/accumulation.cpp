@@ -47,10 +47,10 @@ void ImpactHistory::add(double since, double speed, double t, double noise, doub
 }
 
 std::optional<double> ImpactHistory::end_of_gain() const {
-  constexpr long fewest = 8;  // four marks
+  constexpr long fewest_marked = 8;  // four marks
   // The gap has shrunk a thousand times by one law; after a hundred thousand impacts by about one.
   const double by_one_law = count_ < (1L << 17) ? 1e-3 : 0.1;
-  if (count_ < fewest || !std::has_single_bit(static_cast<unsigned long>(count_))) return std::nullopt;
+  if (count_ < fewest_marked || !std::has_single_bit(static_cast<unsigned long>(count_))) return std::nullopt;
   if (!std::is_sorted(mark_speed_, mark_speed_ + 4, std::greater<>())) return std::nullopt;
   const double last = mark_[0] - mark_[1];
   const double r = last / (mark_[1] - mark_[2]), before = (mark_[1] - mark_[2]) / (mark_[2] - mark_[3]);
@@ -61,7 +61,6 @@ std::optional<double> ImpactHistory::end_of_gain() const {
 }
 
 bool ImpactHistory::shrinks() const {
-  constexpr long fewest = 4;      // three intervals, two ratios
   constexpr double steady = 0.1;  // of what is missing to 1
   if (count_ < fewest || !(interval_[0] < interval_[1]) || !(interval_[1] < interval_[2])) return false;
   const double last = interval_[0] / interval_[1], before = interval_[1] / interval_[2];

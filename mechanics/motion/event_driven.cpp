@@ -336,7 +336,7 @@ void Motion::EventDriven::look_for_penetration() {
 
 void Motion::EventDriven::continue_arc() {
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
-  project();
+  project_after_step();
   if (status != MotionStatus::done) return;
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   for (Argument& one : arguments_) one.zeros = 0;

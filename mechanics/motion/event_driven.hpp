@@ -59,6 +59,8 @@ class Motion::EventDriven final : public Motion::Course {
   /// rounding: a touch, and no impact, whatever the speed that rounding leaves.
   bool turns_within_rounding(Index a);
   void stop_at_vanishing_gradient(Index a);
+  void stop_at_dependent_rows();
+  void project_after_step();
   /// Gradients of these contacts that are 0 but for rounding count as 0 from here on.
   void take_rounding_of_gradients_for_zero(const std::vector<Index>& contacts);
   void tell_blur(const std::vector<Zero>& zeros);
@@ -66,6 +68,7 @@ class Motion::EventDriven final : public Motion::Course {
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
                const std::vector<Index>& switches);
   /// The contacts whose impacts come to an end so soon that they are at rest from now on.
+  bool is_bounce_of_rounding(Index a, double speed, const ImpactHistory& history) const;
   std::vector<Index> accumulating(const std::vector<Index>& closing) const;
   std::vector<Index> brought_to_rest(std::vector<Index> contacts);
   bool may_stop_in_time(const std::vector<Index>& contacts, const std::vector<double>& weights);

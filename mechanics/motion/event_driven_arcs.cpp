@@ -210,9 +210,19 @@ void Motion::EventDriven::project() {
                std::abs(expansion_.rate(a)) <= roundings_of_constants * epsilon * rates.df_scale[a];
       }))
     return;
-  stop("at t = " + number_text(state.t) +
-       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state" +
-       std::string(advice_on_singular_states));
+  stop_at_dependent_rows();
+}
+
+/// At the end of a step the way back to df/dt = 0 is as short as the step is right. Where it turns the
+/// velocity, beside a singular position, the rows held do not tell it.
+void Motion::EventDriven::project_after_step() {
+  constexpr double largest_turn = 1e-4;  // of the velocities there have been
+  const Vector v = state.v;
+  project();
+  if (status != MotionStatus::done || persist_.empty() || state.v == v) return;
+  Vector fastest(v.size());
+  for (Index i = 0; i < v.size(); ++i) fastest[i] = std::max(std::abs(v[i]), expansion_.fastest(i));
+  if (expansion_.norm(state.v - v) > largest_turn * expansion_.norm(fastest)) stop_at_dependent_rows();
 }
 
 /// Whether a coordinate at rest is pushed away from where it is by more than in proportion to the distance,
@@ -312,15 +322,6 @@ std::vector<Zero> Motion::EventDriven::closing_at_the_end() {
       found.push_back({Zero::Of::constraint, a, done.length, false});
   }
   return found;
-}
-
-void Motion::EventDriven::stop_at_vanishing_gradient(Index a) {
-  if (is_two_sided(a))
-    return stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
-                " vanishes here" + std::string(advice_on_singular_states));
-  stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
-       " vanishes here, and derivatives do not tell what it demands; write it so that its gradient does not "
-       "vanish, as y >= 0 for y^3 >= 0");
 }
 
 void Motion::EventDriven::take_rounding_of_gradients_for_zero(const std::vector<Index>& contacts) {

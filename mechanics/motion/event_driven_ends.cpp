@@ -37,6 +37,21 @@ constexpr int most_stretches = 20;
 
 }  // namespace
 
+void Motion::EventDriven::stop_at_vanishing_gradient(Index a) {
+  if (is_two_sided(a))
+    return stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
+                " vanishes here" + std::string(advice_on_singular_states));
+  stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
+       " vanishes here, and derivatives do not tell what it demands; write it so that its gradient does not "
+       "vanish, as y >= 0 for y^3 >= 0");
+}
+
+void Motion::EventDriven::stop_at_dependent_rows() {
+  stop("at t = " + number_text(state.t) +
+       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state" +
+       std::string(advice_on_singular_states));
+}
+
 /// Whether contacts that exclude each other at an impact do so by no more than rounding tells. With weights
 /// w, Σ w_a u_a = 0, the sum of w_a f_a is, whatever the bodies do, how far apart the walls are; they close
 /// in at the speed c = -Σ w_a ∂f_a/∂t. Walls that close in ever slower come to rest before they meet if c² is
@@ -77,10 +92,20 @@ std::vector<Index> Motion::EventDriven::brought_to_rest(std::vector<Index> conta
   return contacts;
 }
 
+/// Whether the bounce of a contact that strikes so fast is one of rounding: as high as f is uncertain, by the
+/// time it took and by the forces there are to turn it back. In a groove of one constraint a body strikes its
+/// sides within rounding, too, but fast.
+bool Motion::EventDriven::is_bounce_of_rounding(Index a, double speed, const ImpactHistory& history) const {
+  const double lowest = roundings_of_bounce * epsilon * expansion_.position_scale(a);
+  const double pull = expansion_.inertia().dual_norm(expansion_.row(a)) * expansion_.force_norm();
+  return history.next_height() <= lowest && 0.5 * speed * speed <= pull * lowest;
+}
+
 std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& closing) const {
   std::vector<Index> found;
   const auto is_near_its_end = [&](Index a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
+    if (history.is_rounding()) return true;
     if (!history.shrinks()) return false;
     const double scale = std::max(history.highest(), roundings_of_bounce * expansion_.position_scale(a));
     return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * clock() ||
@@ -103,7 +128,11 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   const double remaining = history_[static_cast<std::size_t>(found.front())].remaining();
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
-    if (is_among(found, a) || is_two_sided(a) || !history.shrinks()) continue;
+    if (is_among(found, a) || is_two_sided(a)) continue;
+    if (history.is_rounding() &&
+        expansion_.f(a) <= roundings_of_bounce * epsilon * expansion_.position_scale(a))
+      found.push_back(a);
+    if (history.is_rounding() || !history.shrinks()) continue;
     const double end = history.remaining() - elapsed_[static_cast<std::size_t>(a)];
     constexpr double alike = 0.05;
     if (std::abs(end - remaining) <= alike * remaining) found.push_back(a);

@@ -8,6 +8,9 @@ namespace {
 /// Whitening rounds a row about so many times, for each coordinate.
 constexpr double roundings_of_row = 8;
 
+/// What is left of a vector beside what it is orthogonal to has lost a digit when it is this part of it.
+constexpr double digit_lost = 0.1;
+
 }  // namespace
 
 HeldRows::HeldRows(const convex::Metric& A, const std::vector<Vector>& U)
@@ -47,7 +50,15 @@ HeldRows::Answer HeldRows::solve(const Vector& r, const Vector& s) const {
   for (Index j = 0; j < k; ++j)  // Rᵀ y = s
     chosen[j] = (chosen[j] - R.col(j).head(j).dot(chosen.head(j))) / R(j, j);
   Vector step = chosen - Q.transpose() * w;
+  const double before = w.norm();
   w += Q * step;
+  // Where rows take up most of r, as those of a body at rest in a corner, its rounding is as much as what is
+  // left: twice is enough (Kahan and Parlett, in Parlett 1980, 6.9).
+  if (w.norm() <= digit_lost * before) {
+    const Vector left = chosen - Q.transpose() * w;
+    w += Q * left;
+    step += left;
+  }
   for (Index j = k; j-- > 0;) {  // R lambda = step
     for (Index l = j + 1; l < k; ++l) step[j] -= R(j, l) * step[l];
     step[j] /= R(j, j);

@@ -209,3 +209,63 @@ TEST_CASE("a relay that draws a body back ever so soon is not followed to the li
   CHECK(slower.motion.status() == MotionStatus::done);
   CHECK(std::abs(slower.end().q[0]) <= 1e-10);
 }
+
+TEST_CASE(
+    "a ball that bounces in a groove of two slopes, with a restitution each, comes to rest at its bottom") {
+  // The bottom is the one place of least potential, and impacts with e < 1 take energy until it is there.
+  struct Groove {
+    double x, y, left, right, mass, ratio,
+        tilt;  // the bottom; slopes; inertia in x and over it in y; of gravity
+    double aside, above, speed, e_left, e_right;  // the start
+  };
+  for (const Groove& of :
+       {Groove{-2.1, 1.44, -0.164, 0.217, 2.5, 2, -0.044, 0.1, 3.022, 0, 0, 0.3},
+        Groove{-2.24, 1.23, -0.149, 0.395, 1, 1, -0.027, 1e-7, 3.041658e-6, 0, 0, 0.3},
+        Groove{-2.51, -0.97, -0.766, 0.453, 1, 1, -0.176, 1e-7, 3.0961097e-6, 1e-4, 0, 0.8},
+        Groove{-2.47, -1.28, -0.399, 0.51, 2.5, 2, 0.151, 1e-4, 3.0559445e-3, 3.16e-3, 0.8, 0}}) {
+    const auto text_of = [](double number) { return "(" + std::to_string(number) + ")"; };
+    const std::string x = "(x - " + text_of(of.x) + ")", y = "(y - " + text_of(of.y) + ")";
+    const auto slope = [&](double angle) {
+      return y + "*cos" + text_of(angle) + " - " + x + "*sin" + text_of(angle) + " >= 0";
+    };
+    const SystemText groove{
+        {"x", "y"},
+        text_of(of.mass) + "/2*(x'^2 + " + text_of(of.ratio) + "*y'^2)",
+        "9.81*" + text_of(of.mass) + "*(y*cos" + text_of(of.tilt) + " + x*sin" + text_of(of.tilt) + ")",
+        {},
+        {},
+        {},
+        {{"left", slope(of.left)}, {"right", slope(of.right)}}};
+    MotionOptions options;
+    options.restitution = convex::Vector{{of.e_left, of.e_right}};
+    const Followed found =
+        followed(groove, state({of.x + of.aside, of.y + of.above}, {of.speed, 0}), 60, options);
+    CAPTURE(of.left);
+    CHECK(found.motion.status() == MotionStatus::done);
+    CHECK(std::abs(found.end().q[0] - of.x) <= 1e-13);
+    CHECK(std::abs(found.end().q[1] - of.y) <= 1e-13);
+    CHECK(found.end().v.norm() == 0);
+    CHECK(found.motion.record().steps < 10'000);
+  }
+}
+
+TEST_CASE(
+    "a body that has come to rest in a corner stays there, however long, as one does that begins in it") {
+  // Two slopes hold both coordinates: q'' is 0, not what rounding leaves of the weight.
+  const SystemText corner{{"x", "y"},
+                          "(x'^2 + y'^2)/2",
+                          "9.81*(y*cos(0.1) + x*sin(0.1))",
+                          {},
+                          {},
+                          {},
+                          {{"left", "(y - 1.45)*cos(0.766) + (x + 0.48)*sin(0.766) >= 0"},
+                           {"right", "(y - 1.45)*cos(0.453) - (x + 0.48)*sin(0.453) >= 0"}}};
+  for (const double e : {0.0, 0.5}) {
+    const Followed found = followed(corner, state({-0.4, 2.4}, {0, 0}), 1e6, restitution(corner, e));
+    CAPTURE(e);
+    CHECK(found.motion.status() == MotionStatus::done);
+    CHECK(std::abs(found.end().q[0] + 0.48) <= 1e-14);
+    CHECK(std::abs(found.end().q[1] - 1.45) <= 1e-14);
+    CHECK(found.end().v.norm() <= 1e-30);
+  }
+}

@@ -66,11 +66,14 @@ TEST_CASE("ties that do not commute are said") {
              ImpactLaw::sequential);
   CHECK_FALSE(found.remark.empty());
   // What differs by more than rounding is no tie: the faster one strikes first.
-  const ImpactOutcome told_apart = impact(
-      Metric::identity(2), {{Vector{{s, c}}, -c, 1, false}, {Vector{{-s, c}}, -c * (1 + 1e-13), 1, false}},
-      ImpactLaw::sequential);
+  // Where the second one does, v+ leads to its other side: (0, -1) is (-0.96, -0.28) first, then (0.5376,
+  // 0.8432).
+  const ImpactOutcome told_apart =
+      impact(Metric::identity(2),
+             {{Vector{{0.8, 0.6}}, -0.6, 1, false}, {Vector{{-0.8, 0.6}}, -0.6 * (1 + 1e-13), 1, false}},
+             ImpactLaw::sequential);
   CHECK(told_apart.remark.empty());
-  CHECK(told_apart.change[0] < 0);
+  CHECK(told_apart.change[0] == doctest::Approx(0.5376).epsilon(1e-12));
   // Unless the rates are the rest of larger numbers.
   CHECK_FALSE(
       impact(Metric::identity(2),

@@ -217,6 +217,16 @@ TEST_CASE("a motion that comes to a singular position, or starts there, stops wi
   pushing.coordinates.push_back("c");
   pushing.kinetic = "(a'^2 + b'^2 + c'^2)/4";
   pushing.constraints.push_back({"push", "c >= b"});
+  // Coming from -0.3, where steps may begin so near to it that the rows there told another velocity.
+  for (const auto& [speed, force] : {std::pair{3.88, -0.16}, {1.65, 2.76}}) {
+    SystemText coming = wheels;
+    coming.forces = {{"a", std::to_string(force)}};
+    const Followed motion = followed(coming, state({-0.3, -0.3}, {speed, speed}), 1);
+    CAPTURE(speed);
+    const double v = motion.end().v[0];  // a = b all along
+    CHECK((motion.motion.status() == MotionStatus::stopped || std::abs(v - speed - force) <= 1e-9));
+    CHECK((motion.end().t == 1 || std::abs(motion.end().q[0]) <= 1e-3));
+  }
   for (const bool pushes : {false, true}) {
     const Followed motion = pushes ? followed(pushing, state({0, 0, 0}, {2, 2, 2}), 1)
                                    : followed(wheels, state({0, 0}, {2, 2}), 1);
