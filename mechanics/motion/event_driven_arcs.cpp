@@ -216,13 +216,15 @@ void Motion::EventDriven::project() {
 /// At the end of a step the way back to df/dt = 0 is as short as the step is right. Where it turns the
 /// velocity, beside a singular position, the rows held do not tell it.
 void Motion::EventDriven::project_after_step() {
-  constexpr double largest_turn = 1e-4;  // of the velocities there have been
+  constexpr double largest_turn =
+      1e-4;  // of the velocities there have been, and of what forces make in a step
   const Vector v = state.v;
   project();
   if (status != MotionStatus::done || persist_.empty() || state.v == v) return;
   Vector fastest(v.size());
   for (Index i = 0; i < v.size(); ++i) fastest[i] = std::max(std::abs(v[i]), expansion_.fastest(i));
-  if (expansion_.norm(state.v - v) > largest_turn * expansion_.norm(fastest)) stop_at_dependent_rows();
+  const double largest = expansion_.norm(fastest) + expansion_.force_norm() * done.length;
+  if (expansion_.norm(state.v - v) > largest_turn * largest) stop_at_dependent_rows();
 }
 
 /// Whether a coordinate at rest is pushed away from where it is by more than in proportion to the distance,

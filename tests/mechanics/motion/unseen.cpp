@@ -237,6 +237,29 @@ TEST_CASE("a motion that comes to a singular position, or starts there, stops wi
   }
 }
 
+TEST_CASE(
+    "what rounding leaves of a velocity at rest is no singular position, whatever the order of coordinates") {
+  // A cart that is held, and what hangs from it, with a stop that just touches it: nothing moves.
+  SystemText cart{{"x", "a"},
+                  "7/2*x'^2 + 1/2*((x' + l*cos(a)*a')^2 + (l*sin(a)*a')^2)",
+                  "-9.7*l*cos(a) + 2*x^2",
+                  {{"l", "1.36"}},
+                  {},
+                  {{"x", "3*cos(t)"}},
+                  {{"stop", "a >= 0"}, {"rail", "x = -1.763"}, {"end", "-x >= 1.763"}}};
+  for (const double l : {1.36, 0.7, 2.1, 0.333})
+    for (const bool swapped : {false, true}) {
+      cart.parameters = {{"l", std::to_string(l)}};
+      cart.coordinates = swapped ? std::vector<std::string>{"a", "x"} : std::vector<std::string>{"x", "a"};
+      const State start = swapped ? state({0, -1.763}, {0, 0}) : state({-1.763, 0}, {0, 0});
+      const Followed motion = followed(cart, start, 1);
+      CAPTURE(l);
+      CAPTURE(swapped);
+      CHECK(motion.motion.status() == MotionStatus::done);
+      CHECK((motion.end().q - start.q).norm() <= 1e-15);
+    }
+}
+
 TEST_CASE("a narrow zone that a square tells is met at both of its sides, however far away") {
   struct Case {
     std::string zone;
