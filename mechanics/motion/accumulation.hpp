@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -18,13 +19,23 @@ class ImpactHistory {
   /// speed -df/dt before it.
   /// t: when; noise, speed_noise: how far `since` and the speed may be off by rounding.
   void add(double since, double speed, double t, double noise, double speed_noise);
-  void forget() { *this = ImpactHistory(); }
-  /// Of the bounce that this impact ends: whether rounding moves f as high, so that rounding decides when it
-  /// comes to 0.
-  void note_bounce(bool is_rounding) { of_rounding_ = is_rounding ? of_rounding_ + 1 : 0; }
+  /// After the end. What is rounding once is so when another contact strikes.
+  void forget() {
+    const double of_rounding = of_rounding_;
+    *this = ImpactHistory();
+    of_rounding_ = of_rounding;
+  }
+  /// Of the bounce that this impact ends, how high it was, in bounces so low that rounding decides when f
+  /// comes to 0. One that is n times as high counts as a part 1/n: it may be what others have left, that
+  /// rest.
+  void note_bounce(double times_rounding) {
+    constexpr double highest_told = 256;
+    of_rounding_ = times_rounding <= highest_told ? of_rounding_ + 1 / std::max(1.0, times_rounding) : 0;
+  }
   /// Whether the last bounces were so, as many of them as tell a ratio: where they told none before, as of
   /// contacts that strike in turn, one of them once and another one twice, rounding is all that goes on.
   bool is_rounding() const { return of_rounding_ >= fewest; }
+
   /// The next impact may come so much sooner or later, and so much faster or slower, than is told.
   void doubt(double time, double speed) {
     noise_ += time;
@@ -59,7 +70,8 @@ class ImpactHistory {
 
  private:
   static constexpr long fewest = 4;  // impacts, of which three intervals and two ratios tell
-  long count_ = 0, shrinking_ = 0, of_rounding_ = 0;
+  long count_ = 0, shrinking_ = 0;
+  double of_rounding_ = 0;
   double interval_[3] = {0, 0, 0};  // the last one first
   double speed_ = 0, speed_before_ = 0, highest_ = 0;
   double noise_ = 0, speed_noise_ = 0;                            // of all impacts so far

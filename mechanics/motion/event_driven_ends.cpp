@@ -92,21 +92,20 @@ std::vector<Index> Motion::EventDriven::brought_to_rest(std::vector<Index> conta
   return contacts;
 }
 
-/// Whether the bounce of a contact that strikes so fast is one of rounding: as high as f is uncertain, by the
-/// time it took and by the forces there are to turn it back. In a groove of one constraint a body strikes its
-/// sides within rounding, too, but fast.
-bool Motion::EventDriven::is_bounce_of_rounding(Index a, double speed, const ImpactHistory& history) const {
-  const double lowest = roundings_of_bounce * epsilon * expansion_.position_scale(a);
+/// How high the bounce of a contact was that strikes so fast, by the time it took and by the forces there are
+/// to turn it back, in f that rounding leaves open. In a groove of one constraint a body strikes its sides
+/// within rounding, too, but fast.
+double Motion::EventDriven::bounce_over_rounding(Index a, double speed, const ImpactHistory& history) const {
   const double pull = expansion_.inertia().dual_norm(expansion_.row(a)) * expansion_.force_norm();
-  return history.next_height() <= lowest && 0.5 * speed * speed <= pull * lowest;
+  const double height = std::max(history.next_height(), 0.5 * speed * speed / pull);
+  return height / (roundings_of_bounce * epsilon * expansion_.position_scale(a));
 }
 
 std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& closing) const {
   std::vector<Index> found;
   const auto is_near_its_end = [&](Index a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
-    if (history.is_rounding()) return true;
-    if (!history.shrinks()) return false;
+    if (!history.shrinks()) return history.is_rounding();
     const double scale = std::max(history.highest(), roundings_of_bounce * expansion_.position_scale(a));
     return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * clock() ||
            (history.shrinking() >= most_impacts_followed && history.slows() &&
@@ -129,10 +128,12 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (is_among(found, a) || is_two_sided(a)) continue;
-    if (history.is_rounding() &&
-        expansion_.f(a) <= roundings_of_bounce * epsilon * expansion_.position_scale(a))
-      found.push_back(a);
-    if (history.is_rounding() || !history.shrinks()) continue;
+    if (!history.shrinks()) {
+      if (history.is_rounding() &&
+          expansion_.f(a) <= roundings_of_bounce * epsilon * expansion_.position_scale(a))
+        found.push_back(a);
+      continue;
+    }
     const double end = history.remaining() - elapsed_[static_cast<std::size_t>(a)];
     constexpr double alike = 0.05;
     if (std::abs(end - remaining) <= alike * remaining) found.push_back(a);

@@ -186,7 +186,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
                   roundings_of_speed * epsilon *
                       std::max(-rate_before, expansion_.uses_time() ? expansion_.magnitude_of_rate(a)
                                                                     : striking_[k].rate_scale));
-      history.note_bounce(is_bounce_of_rounding(a, -rate_before, history));
+      history.note_bounce(bounce_over_rounding(a, -rate_before, history));
       elapsed_[static_cast<std::size_t>(a)] = 0;
       if (history.count() >= most_gains_followed && !end_of_gain) end_of_gain = history.end_of_gain();
     }
@@ -216,10 +216,9 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
                         return is_among(persist_, a);
                       });
     if (rest) {
-      for (const Index a : ending)  // what is rounding once is so when another contact strikes
-        if (ImpactHistory& one = history_[static_cast<std::size_t>(a)]; !one.is_rounding()) one.forget();
+      for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
       const double now = since_start_ + low_,
-                   end = time_stands_still() || last.is_rounding() ? now : std::max(now, last.end());
+                   end = time_stands_still() || !last.shrinks() ? now : std::max(now, last.end());
       endings.push_back({start_ + end, ending});
       std::sort(endings.begin(), endings.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
       if (time_stands_still()) return;

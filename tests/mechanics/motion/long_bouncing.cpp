@@ -249,6 +249,25 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a column of balls of different restitution, one of them 1, comes to rest where it stands") {
+  // What the others leave of the one with e = 1 once they rest, by rounding, would bounce for ever.
+  const SystemText column{
+      {"y1", "y2", "y3", "y4"},
+      "0.9/2*y1'^2 + 2.23/2*y2'^2 + 0.85/2*y3'^2 + 2.64/2*y4'^2",
+      "10*(0.9*y1 + 2.23*y2 + 0.85*y3 + 2.64*y4)",
+      {},
+      {},
+      {},
+      {{"c1", "y1 >= 0"}, {"c2", "y2 >= y1 + 0.5"}, {"c3", "y3 >= y2 + 0.5"}, {"c4", "y4 >= y3 + 0.5"}}};
+  MotionOptions options;
+  options.restitution = convex::Vector{{0.5, 1, 0.9, 0.8}};
+  const Followed found = followed(column, state({1, 2.2, 3.4, 3.9}, {0, 0, 0, 0}), 2, options);
+  CHECK(found.motion.status() == MotionStatus::done);
+  CHECK((found.end().q - convex::Vector{{0, 0.5, 1, 1.5}}).norm() <= 1e-13);
+  CHECK(found.end().v.norm() == 0);
+  CHECK(found.motion.record().steps < 10'000);
+}
+
 TEST_CASE(
     "a body that has come to rest in a corner stays there, however long, as one does that begins in it") {
   // Two slopes hold both coordinates: q'' is 0, not what rounding leaves of the weight.
