@@ -118,12 +118,13 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   striking_.resize(present.size());
   for (std::size_t k = 0; k < present.size(); ++k) {
     const Index a = present[k];
-    // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open,
-    // or close within the contact tolerance.
+    // A contact that is held, or touches softly, has no rate but from rounding, of velocities that may be
+    // past; at the start one may open, or close within the contact tolerance.
     const double rate = expansion_.rate(a);
     const bool turns = is_among(closing, a), is_free = !is_two_sided(a);
+    const bool is_at_rest = switches.empty() && is_among(persist_, a);
     const double told = record.steps == 0 ? std::abs(rate) : rate;
-    const bool moves = turns || (is_free && told > expansion_.rounding_of_rate(a));
+    const bool moves = turns || (is_free && !is_at_rest && told > expansion_.rounding_of_rate(a));
     ImpactContact& contact = striking_[k];
     expansion_.row(a, contact.u);
     contact.rate = moves ? rate : 0;

@@ -288,3 +288,23 @@ TEST_CASE(
     CHECK(found.end().v.norm() <= 1e-30);
   }
 }
+
+TEST_CASE("a body at rest in a corner is not struck again when another one strikes its own wall") {
+  const SystemText bodies{{"x1", "y1", "x2", "y2"},
+                          "4.263/2*(x1'^2 + y1'^2) + 3/2*(x2'^2 + y2'^2)",
+                          "9.9*(4.263*y1 + 3*y2)",
+                          {},
+                          {},
+                          {{"x1", "2*sin(3*t)"}},
+                          {{"shell", "x1^2 + y1^2 <= 4 + 1.715^2"},
+                           {"bowl", "x2^2 + y2^2 <= 1.772875^2 + 1.660154^2 + 1.8"},
+                           {"wave", "y2 - cos(x2) >= 1.660154 - cos(1.772875)"},
+                           {"ramp", "x2 + y2 >= 1.772875 + 1.660154 - 1.76*(t - 1)"}}};
+  State start = state({-2, 1.715, 1.772875, 1.660154}, {0, 0, 0, 0});
+  start.t = 1;
+  const Followed found = followed(bodies, start, 2);
+  REQUIRE(found.events.size() == 2);
+  CHECK(found.events[0].constraints == std::vector<Index>{1, 2});
+  CHECK(found.events[1].constraints == std::vector<Index>{0});
+  CHECK(found.motion.record().remarks.empty());
+}
