@@ -67,8 +67,8 @@ class Motion::EventDriven final : public Motion::Course {
   void tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing);
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
                const std::vector<Index>& switches);
-  /// The contacts whose impacts come to an end so soon that they are at rest from now on.
   double bounce_over_rounding(Index a, double speed, const ImpactHistory& history) const;
+  /// The contacts whose impacts come to an end so soon that they are at rest from now on.
   std::vector<Index> accumulating(const std::vector<Index>& closing) const;
   std::vector<Index> brought_to_rest(std::vector<Index> contacts);
   bool may_stop_in_time(const std::vector<Index>& contacts, const std::vector<double>& weights);
