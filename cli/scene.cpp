@@ -65,7 +65,7 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
             {},
             std::move(written)};
   } catch (const InvalidInput& error) {
-    throw mechanics::refused_state(error, text.system.kinetic.begin, *system);
+    throw mechanics::refused_state(error, text.system.kinetic.begin, *system, written.state);
   }
 }
 

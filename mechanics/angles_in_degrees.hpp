@@ -14,12 +14,13 @@ struct State;
 /// and was hardly meant so.
 std::vector<std::string> angles_in_degrees(const LagrangianSystem&);
 
-/// These, and one for each coordinate of which a sine, cosine or tangent is taken and that stands at such a
-/// number.
+/// These, and one for each coordinate that is an angle and stands at such a number. It is one where it occurs
+/// in sums alone of which a sine, cosine or tangent is taken, and in derivatives, and where no coordinate
+/// that occurs elsewhere has the same inertia: that of a length x beside y >= sin(x) is that of y.
 std::vector<std::string> angles_in_degrees(const LagrangianSystem&, const State&);
 
 /// Why a state is refused, told with such an angle, which may be the cause. `place`: of an error without one.
 convex::InvalidInput refused_state(const convex::InvalidInput& error, convex::Place place,
-                                   const LagrangianSystem&);
+                                   const LagrangianSystem&, const State&);
 
 }  // namespace mechanics

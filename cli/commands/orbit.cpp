@@ -173,7 +173,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     orbit = mechanics::find_orbit(*system, guess, question);
   } catch (const InvalidInput& error) {
     const auto time = question.is_free ? place_of_time(text->system) : std::nullopt;
-    throw mechanics::refused_state(error, time.value_or(text->system.kinetic.begin), *system);
+    throw mechanics::refused_state(error, time.value_or(text->system.kinetic.begin), *system, guess);
   }
   if (orbit.why.starts_with("Newton's method finds no motion")) orbit.why += how_to_begin(file, options);
   const long fewest = orbit.is_found && !question.is_free
@@ -188,7 +188,8 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
         fmt::format("the motion comes back after {} of the {} periods already; give "
                     "--periods {}",
                     fewest, options.periods, fewest));
-  for (std::string& said : mechanics::angles_in_degrees(*system, guess)) answer.warnings.push_back(std::move(said));
+  for (std::string& said : mechanics::angles_in_degrees(*system, guess))
+    answer.warnings.push_back(std::move(said));
   return answer;
 }
 

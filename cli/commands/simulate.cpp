@@ -197,7 +197,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
     if (options.resume) throw InvalidInput("--resume " + *options.resume + ": " + error.what());
     const bool is_of_values = std::string_view(error.what()).find("not finite") != std::string_view::npos;
     if (!error.place() && is_of_values) require_finite(*system, state);
-    throw mechanics::refused_state(error, text->system.kinetic.begin, *system);
+    throw mechanics::refused_state(error, text->system.kinetic.begin, *system, state);
   }
   mechanics::Motion& motion = *begun;
 

@@ -101,6 +101,28 @@ TEST_CASE("a number is no rounding of others that nothing couples to it") {
   CHECK(text.find("1.33333") != std::string::npos);
 }
 
+TEST_CASE("a coordinate is an angle where sums of coordinates are turned, and a length is none") {
+  const auto told = [](const std::string& kinetic, const std::string& potential,
+                       const std::string& floor = "y >= -9") {
+    const Outcome outcome = run_on("solve", point_on_floor({{3, "kinetic = \"" + kinetic + "\""},
+                                                            {4, "potential = \"" + potential + "\""},
+                                                            {6, "m = 2.0\nal = 0.5"},
+                                                            {9, "floor = \"" + floor + "\""},
+                                                            {11, "position = { x = 60, y = 0.0 }"}}));
+    return outcome.err.find("the angle \"x\", which stands at 60, counts in radians") != std::string::npos;
+  };
+  const std::string turning = "m/2*y'^2 + m*x'^2", sliding = "m/2*(x'^2 + y'^2)";
+  CHECK(told(turning, "cos(x + al)"));
+  CHECK(told(turning, "cos(al - x + 2*t)"));
+  CHECK(told("m/2*y'^2 + m*(2*sin(x))'^2 + m*(2*cos(x))'^2", "m*g*sin(x)"));
+  CHECK(told(turning, "cos(x)", "y - 9*sin(x) >= 0"));  // penetrated: this may be why
+  // A length: of a product the sine, or outside of sines, or as heavy as another length.
+  CHECK_FALSE(told(turning, "sin(al*x)"));
+  CHECK_FALSE(told(turning, "sin(x) + m*g*x"));
+  CHECK_FALSE(told(turning, "sin(x)", "x >= -1"));
+  CHECK_FALSE(told(sliding, "m*g*y", "y - sin(x) >= -2"));
+}
+
 TEST_CASE("a plain number beyond a turn in a sine is told as radians, and one that is computed is not") {
   const auto sliding = [](const std::string& angle) {
     return point_on_floor({{4, "potential = \"m*g*y + sin(a)*x\""}, {6, "m = 2.0\na = " + angle}});
@@ -112,8 +134,9 @@ TEST_CASE("a plain number beyond a turn in a sine is told as radians, and one th
     CHECK(run_on("solve", sliding(angle)).err.empty());
   // So does a coordinate that is an angle.
   const auto standing_at = [](const std::string& x) {
-    return point_on_floor(
-        {{4, "potential = \"m*g*y + sin(x) + cos(x)\""}, {11, "position = { x = " + x + ", y = 0.0 }"}});
+    return point_on_floor({{3, "kinetic = \"m/2*y'^2 + m/4*x'^2\""},
+                           {4, "potential = \"m*g*y + sin(x) + cos(x)\""},
+                           {11, "position = { x = " + x + ", y = 0.0 }"}});
   };
   for (const char* command : {"solve", "derive", "simulate"}) {
     const Outcome told = run_on(command, standing_at("60") + "[simulate]\nuntil = 0.1\n");
