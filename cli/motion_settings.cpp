@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "cli/motion_files.hpp"
+#include "cli/problem_file/keys.hpp"
 #include "cli/scene.hpp"
+#include "mechanics/number_text.hpp"
 
 namespace cli {
 namespace {
@@ -56,6 +58,9 @@ mechanics::MotionOptions motion_options(const Problem& problem, const mechanics:
   mechanics::MotionOptions chosen;
   chosen.method = motion_way(settings, system, options).method;
   chosen.step = settings.step.value_or(chosen.step);
+  if (options.tolerance)
+    require_step_tolerance(*options.tolerance, mechanics::number_text(*options.tolerance), "tolerance",
+                           std::nullopt);
   chosen.tolerance = options.tolerance.value_or(settings.tolerance.value_or(chosen.tolerance));
   chosen.step_limit = options.step_limit.value_or(chosen.step_limit);
   chosen.impact_law = impact_law(settings);
@@ -76,8 +81,27 @@ double end_of_motion(const Problem& problem, const mechanics::LagrangianSystem& 
     throw InvalidInput("simulate.until: missing; write until = 3.0 below [simulate], or give --until 3.0");
   const double until = told ? value_of(problem, system, *told, "--until", std::nullopt)
                             : value_of(problem, system, written->text, "simulate.until", written->begin);
-  if (!std::isfinite(until)) throw InvalidInput("simulate.until: not finite; give a time to end at");
+  if (!std::isfinite(until))
+    throw InvalidInput(
+        "simulate.until: " + (told ? *told : written->text) + " is not finite; give a time to end at",
+        told ? std::nullopt : std::optional<convex::Place>(written->begin));
   return until;
+}
+
+std::vector<std::string> unused_settings(const SimulateSettings& settings, const MotionChoice& options) {
+  if (options.method) return {};  // the file may have been written for another
+  const std::string method = settings.method.value_or("event-driven");
+  std::vector<std::string> said;
+  const auto at_line = [](convex::Place place) { return "line " + std::to_string(place.line) + ": "; };
+  if (settings.step && method == "event-driven")
+    said.push_back(at_line(settings.step_place) + "simulate.step is not used by event-driven" +
+                   (settings.method ? "" : ", the default") +
+                   "; write method = \"time-stepping\" to go in such steps, or take it out");
+  if (settings.tolerance && method == "time-stepping")
+    said.push_back(
+        at_line(settings.tolerance_place) +
+        "simulate.tolerance is not used by time-stepping, whose error falls with step; take it out");
+  return said;
 }
 
 convex::Vector multiples_of_turns(const Problem& problem, const mechanics::LagrangianSystem& system,

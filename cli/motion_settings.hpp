@@ -23,6 +23,10 @@ MotionWay motion_way(const SimulateSettings&, const mechanics::System&, const Mo
 mechanics::MotionOptions motion_options(const Problem&, const mechanics::LagrangianSystem&,
                                         const MotionChoice&);
 
+/// A sentence for each key of [simulate] that the file's method does not use: step beside event-driven,
+/// tolerance beside time-stepping. None where the method is told elsewhere, or is "auto".
+std::vector<std::string> unused_settings(const SimulateSettings&, const MotionChoice&);
+
 /// The end of a motion: that of the command line, or of [simulate]. Throws InvalidInput where neither is
 /// there or it is not finite.
 double end_of_motion(const Problem&, const mechanics::LagrangianSystem&,

@@ -50,9 +50,13 @@ convex::Metric kinetic_metric(const convex::SparseMatrix& A, const std::vector<s
       if (!(A.coeff(i, i) > 0)) fault = i;
     constexpr Index largest_dense = 2000;
     if (fault < 0 && n <= largest_dense) fault = pivot_at_fault(convex::Matrix(A));
-    const std::string which =
-        fault < 0 ? "" : " (fails at " + coordinates[static_cast<std::size_t>(fault)] + "')";
-    throw convex::InvalidInput("kinetic: T is not positive definite in the velocities at this state" + which +
+    const std::string what = "kinetic: T is not positive definite in the velocities at this state";
+    const std::string coordinate = fault < 0 ? "" : coordinates[static_cast<std::size_t>(fault)];
+    if (fault >= 0 && A.col(fault).squaredNorm() == 0)
+      throw convex::InvalidInput(what + ", " + coordinate + "' is not in it; give " + coordinate +
+                                 " a mass, or write the constraints without it, that of a pin in a slot as "
+                                 "x*sin(b) = y*cos(b)");
+    throw convex::InvalidInput(what + (fault < 0 ? "" : " (fails at " + coordinate + "')") +
                                "; give every motion a positive kinetic energy, or choose other coordinates");
   }
 }

@@ -231,6 +231,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
+  answer.warnings = unused_settings(problem.simulate, options);
   for (const std::string& said : {followed.choice.empty() ? way.why : "", of_crowd})
     if (!said.empty()) answer.warnings.push_back(said);
   const bool strikes_at_once = std::any_of(

@@ -139,20 +139,29 @@ std::string home_at_top(const std::string& key, const TomlValue& document) {
   return kind != nullptr && kind->has(key) ? kind->name : table_of_key(key);
 }
 
-std::string advice_on_home(const std::string& key, bool is_table, const std::string& home) {
-  return is_table ? "it is a part of [" + home + "], write [" + home + "." + key + "]"
-                  : "it belongs below [" + home + "]";
+std::string advice_on_home(const TomlEntry& entry, const std::string& home) {
+  return entry.value.kind == TomlValue::Kind::table
+             ? "it is a part of [" + home + "], write [" + home + "." + entry.key + "]"
+             : "it belongs below [" + home + "]";
 }
 
-std::string advice_on_key(const std::string& unknown, bool is_table, const std::string& where,
+InvalidInput unknown_key(const TomlEntry& entry, const std::string& where, const std::string& advice) {
+  return InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
+                          (where.empty() ? "" : " in [" + where + "]") + "; " + advice,
+                      entry.place);
+}
+
+std::string advice_on_key(const TomlEntry& entry, const std::string& where,
                           const std::vector<std::string>& known) {
+  const std::string& unknown = entry.key;
+  const bool is_table = entry.value.kind == TomlValue::Kind::table;
   const bool is_of_system =
       where.empty() || where == "system" || where == "state" || where == "simulate" || where == "solve";
   for (const OtherWord& home : homes)
     if (is_of_system && unknown == home.word && where != home.key) {
       const std::string table(home.key);
       if (table.empty()) return "it is a table by itself, write [" + unknown + "]";
-      return advice_on_home(unknown, is_table, table);
+      return advice_on_home(entry, table);
     }
   for (const OtherWord& other : not_here)
     if (is_of_system && unknown == other.word) return other.key;
@@ -198,13 +207,9 @@ void require_known_keys(const TomlValue& table, const std::string& where,
   const std::vector<std::string> names(known.begin(), known.end());
   for (const TomlEntry& entry : table.table) {
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
-    const bool is_table = entry.value.kind == TomlValue::Kind::table;
     const std::string home = where.empty() ? home_at_top(entry.key, table) : "";
-    mistakes.add(InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
-                                  (where.empty() ? "" : " in [" + where + "]") + "; " +
-                                  (home.empty() ? advice_on_key(entry.key, is_table, where, names)
-                                                : advice_on_home(entry.key, is_table, home)),
-                              entry.place));
+    mistakes.add(unknown_key(
+        entry, where, home.empty() ? advice_on_key(entry, where, names) : advice_on_home(entry, home)));
   }
   mistakes.tell();
 }
@@ -252,6 +257,18 @@ void move_strays_home(TomlValue& document, convex::Mistakes& mistakes) {
               (is_of_kind ? "write it above [" + table + "]" + (is_name ? ", or take another name" : "")
                           : "write [" + home + "] above it"),
           entry.place));
+      strays.emplace_back(home, entry);
+      return true;
+    });
+  }
+  for (TomlEntry& table : document.table) {
+    const bool is_of_system =
+        table.key == "system" || table.key == "state" || table.key == "simulate" || table.key == "solve";
+    if (kind->keys != &system_keys || !is_of_system) continue;
+    std::erase_if(table.value.table, [&](const TomlEntry& entry) {
+      const std::string home = table_of_key(entry.key);
+      if (home.empty() || home == table.key) return false;
+      mistakes.add(unknown_key(entry, table.key, advice_on_home(entry, home)));
       strays.emplace_back(home, entry);
       return true;
     });
@@ -307,6 +324,15 @@ double require_positive(const TomlValue& value, const std::string& where) {
   if (!(number > 0))
     throw InvalidInput(where + ": " + shown(value.text) + " is not positive; give a number > 0", value.place);
   return number;
+}
+
+void require_step_tolerance(double tolerance, const std::string& text, const std::string& where,
+                            std::optional<convex::Place> place) {
+  if (!(tolerance > 0 && tolerance < 1))
+    throw InvalidInput(
+        where + ": " + shown(text) +
+            " is not between 0 and 1; the error of a step is a part of what it moves, be it 1e-10",
+        place);
 }
 
 void require_restitution(double e, const std::string& text, const std::string& where, convex::Place place) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 
 #include "cli/problem_file/toml_document.hpp"
@@ -26,7 +27,8 @@ TomlValue with_keys_at_home(TomlValue document);
 
 /// Moves what stands below a table of names and belongs elsewhere, as "potential" below [system.parameters]
 /// where [system] has none, or a table "position": a line with the name of its table is missing before it, or
-/// stands too early. Each is added to the mistakes.
+/// stands too early. So are keys of one table of a mechanism within another, as "position" in [system]. Each
+/// is added to the mistakes.
 void move_strays_home(TomlValue& document, convex::Mistakes& mistakes);
 
 /// The table of a mechanism's file that a key belongs to, "simulate" of "until"; "" of others.
@@ -62,6 +64,11 @@ double require_number(const TomlValue& value, const std::string& where);
 
 /// A finite number greater than 0.
 double require_positive(const TomlValue& value, const std::string& where);
+
+/// Refuses an error of a step, which is relative to what a step moves, that is not 0 < tolerance < 1; `text`
+/// is how it is written.
+void require_step_tolerance(double tolerance, const std::string& text, const std::string& where,
+                            std::optional<convex::Place> place);
 
 /// Refuses a coefficient of restitution that is not 0 <= e <= 1; `text` is how it is written.
 void require_restitution(double e, const std::string& text, const std::string& where, convex::Place place);

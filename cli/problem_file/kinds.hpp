@@ -16,6 +16,11 @@ inline constexpr std::initializer_list<const char*> liquid_keys{
     "coordinates", "domain", "density", "velocity", "force",    "free",
     "walls",       "cells",  "low",     "high",     "symmetry", "parameters"};
 
+/// What may stand at the top of a problem file.
+inline constexpr std::initializer_list<const char*> top_keys{
+    "title",  "system", "state",    "projection", "decomposition", "cone",
+    "liquid", "solve",  "simulate", "draw",       "bodies"};
+
 /// A table that says what a file is about, and its keys.
 struct ProblemKind {
   const char* name;

@@ -95,7 +95,9 @@ struct SimulateSettings {
   std::optional<std::string> method;
   convex::Place method_place;
   std::optional<double> tolerance;
+  convex::Place tolerance_place;
   std::optional<double> step;
+  convex::Place step_place;
   std::vector<Restitution> restitutions;
   std::optional<long> samples;
   std::optional<std::string> impact_law;

@@ -15,13 +15,9 @@ namespace {
 
 using convex::InvalidInput;
 
-constexpr std::initializer_list<const char*> known_keys{"title",         "system", "state",  "projection",
-                                                        "decomposition", "cone",   "liquid", "solve",
-                                                        "simulate",      "draw",   "bodies"};
-
 bool is_unknown_table(const TomlEntry& entry) {
   return entry.value.kind == TomlValue::Kind::table &&
-         std::find(known_keys.begin(), known_keys.end(), entry.key) == known_keys.end();
+         std::find(top_keys.begin(), top_keys.end(), entry.key) == top_keys.end();
 }
 
 /// The one table that says what the file is about.
@@ -70,8 +66,8 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   write_long_integers_out(*kept, directory);
   Problem problem;
   convex::Mistakes mistakes;
-  mistakes.gather([&] { require_known_keys(*kept, "", known_keys); });
-  if (!mistakes.none()) *kept = with_keys_at_home(with_meant_keys(std::move(*kept), known_keys));
+  mistakes.gather([&] { require_known_keys(*kept, "", top_keys); });
+  if (!mistakes.none()) *kept = with_keys_at_home(with_meant_keys(std::move(*kept), top_keys));
   move_strays_home(*kept, mistakes);
   const TomlValue& document = *kept;
   const auto read = [&](const char* key, const auto& work) {

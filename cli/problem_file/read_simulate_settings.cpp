@@ -52,9 +52,15 @@ SimulateSettings read_simulate_settings(const TomlValue& table) {
     settings.method_place = method.place;
   });
   read("tolerance", [&](const TomlValue& tolerance) {
-    settings.tolerance = require_positive(tolerance, "simulate.tolerance");
+    const char* where = "simulate.tolerance";
+    settings.tolerance = require_positive(tolerance, where);
+    settings.tolerance_place = tolerance.place;
+    require_step_tolerance(*settings.tolerance, tolerance.text, where, tolerance.place);
   });
-  read("step", [&](const TomlValue& step) { settings.step = require_positive(step, "simulate.step"); });
+  read("step", [&](const TomlValue& step) {
+    settings.step = require_positive(step, "simulate.step");
+    settings.step_place = step.place;
+  });
   read("restitution", [&](const TomlValue& e) {
     if (e.kind != TomlValue::Kind::table)
       return settings.restitutions.push_back(read_restitution({}, e, "simulate.restitution"));

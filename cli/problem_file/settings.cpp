@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/kinds.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace cli::inline problem_files {
@@ -160,7 +161,16 @@ std::string full_key(const TomlValue& document, const Setting& setting) {
   }
   for (const char* content : {"projection", "decomposition", "cone"})
     if (document.find(content) != nullptr) return std::string(content) + "." + key;
+  if (document.find(key) == nullptr)
+    refuse_setting(setting, "there is no such key; the file has no problem whose parameter it could be");
   return key;
+}
+
+/// A table whose name is a slip is why its keys are not found.
+void require_names_of_tables(const TomlValue& document) {
+  require_known_keys(document, "", top_keys);
+  for (const ProblemKind& kind : problem_kinds)
+    if (const TomlValue* table = document.find(kind.name)) require_known_keys(*table, kind.name, *kind.keys);
 }
 
 void apply_setting(TomlValue& document, const Setting& setting) {
@@ -220,7 +230,12 @@ Setting number_setting(const std::string& key, double value) {
 }
 
 void apply_settings(TomlValue& document, const std::vector<Setting>& settings) {
-  for (const Setting& setting : settings) apply_setting(document, setting);
+  for (const Setting& setting : settings) try {
+      apply_setting(document, setting);
+    } catch (const InvalidInput&) {
+      require_names_of_tables(document);
+      throw;
+    }
 }
 
 }  // namespace cli::inline problem_files

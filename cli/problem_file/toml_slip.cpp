@@ -128,6 +128,16 @@ std::string advice_on_rest(const std::string& token, const std::string& given) {
   return "";
 }
 
+/// "2" and "e+": the digits of an exponent are missing.
+std::string advice_on_exponent(const std::string& token, const std::string& rest) {
+  const std::size_t sign = rest.size() > 1 && (rest[1] == '+' || rest[1] == '-') ? 1 : 0;
+  const bool is_exponent = !rest.empty() && (rest[0] == 'e' || rest[0] == 'E') &&
+                           std::string_view(" \t,]}#").find((rest + " ")[1 + sign]) != std::string_view::npos;
+  return !is_exponent ? ""
+                      : "the number " + token + rest.substr(0, 1 + sign) + " lacks its exponent; write " +
+                            token + "e3, or " + token + " alone";
+}
+
 /// What the value is and what follows it, when it is a number or a text.
 std::string advice_on_value(const Spot& spot) {
   const std::string from = without_spaces_around(spot.line.substr(spot.first));
@@ -154,6 +164,8 @@ std::string advice_on_value(const Spot& spot) {
     return "the number " + token.substr(0, longest_shown) + " is too large for a double; choose other units";
   if (token.back() == '.' && without_spaces_around(from.substr(length)).empty())
     return "a number ends with a digit; write " + token + "0";
+  if (const std::string advice = advice_on_exponent(token, from.substr(length)); !advice.empty())
+    return advice;
   return advice_on_rest(token, from.substr(length));
 }
 
@@ -228,11 +240,13 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
     return "two entries of { } without a comma between them; write { x = 0.0, y = 0.0 }";
   const bool is_of_letters =
       spot.here < spot.line.size() && static_cast<unsigned char>(spot.line[spot.here]) >= 0x80;
-  if (is_of_letters && (says(description, "inline table") || says(description, "root table")))
-    return "a key with a letter beyond a to z; names have none" +
-           (greek_letter(spot.line, spot.here).empty()
-                ? std::string()
-                : ", write " + std::string(greek_letter(spot.line, spot.here)));
+  if (is_of_letters && (says(description, "inline table") || says(description, "root table") ||
+                        says(description, "expected '='"))) {
+    const std::string_view greek = greek_letter(spot.line, spot.here);
+    return "a key with a letter beyond a to z; " +
+           (greek.empty() ? "spell it with the letters a to z and A to Z, digits and _"
+                          : "names have none, write " + std::string(greek));
+  }
   if (says(description, "inline table")) return "no } closes this {; a table in { } stands on one line";
   if (says(description, "array: expected comma"))
     return "a list without its ], or two entries without a comma between them; write [1, 2]";

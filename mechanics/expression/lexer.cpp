@@ -84,10 +84,7 @@ Token Lexer::next() {
     default:
       break;
   }
-  std::size_t length = 1;
-  while (begin + length < text.size() && (static_cast<unsigned char>(text[begin + length]) & 0xC0U) == 0x80U)
-    ++length;
-  const std::string_view character = text.substr(begin, length);
+  const std::string_view character = character_at(text, begin);
   source_->fail(begin, "the character " + quoted(character) + " has no meaning in an expression; write " +
                            instead_of_character(character));
 }
@@ -110,9 +107,14 @@ Token Lexer::number() {
   if (at_ < text.size() && (text[at_] == 'e' || text[at_] == 'E')) {
     std::size_t exponent = at_ + 1;
     if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
-    if (exponent < text.size() && is_digit(text[exponent])) {
+    const char first = exponent < text.size() ? text[exponent] : '\0';
+    if (is_digit(first)) {
       at_ = exponent;
       digits();
+    } else if (exponent > at_ + 1 || !begins_name(first)) {
+      const std::string mantissa(text.substr(begin, at_ - begin)), letter(1, text[at_]);
+      source_->fail(begin, "the number " + quoted(mantissa + letter) + " lacks its exponent; write " +
+                               mantissa + "e3, or a product, " + mantissa + "*" + letter);
     }
   }
   Token token{Token::Kind::number, begin, text.substr(begin, at_ - begin), 0};

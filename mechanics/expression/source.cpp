@@ -13,6 +13,13 @@ const Source& Sources::add(Text text, std::string what) {
   return sources_.back();
 }
 
+std::string_view character_at(std::string_view text, std::size_t at) {
+  std::size_t length = 1;
+  while (at + length < text.size() && (static_cast<unsigned char>(text[at + length]) & 0xC0U) == 0x80U)
+    ++length;
+  return text.substr(at, length);
+}
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t longest = 60;  // bytes; a message stays one line
   std::size_t end = std::min(text.size(), longest);

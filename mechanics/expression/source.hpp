@@ -36,6 +36,9 @@ class Sources {
   std::deque<Source> sources_;
 };
 
+/// The character that begins at `at`, all bytes of its UTF-8.
+std::string_view character_at(std::string_view text, std::size_t at);
+
 /// The text in quotes, shortened and without control characters, for a message.
 std::string quoted(std::string_view text);
 

@@ -87,7 +87,7 @@ constexpr Saying characters[] = {
 std::string instead_of_character(std::string_view character) {
   for (const Saying& saying : characters)
     if (saying.unknown == character) return std::string(saying.here);
-  return "it with names, numbers and + - * / ^ '";
+  return "it with names of a to z, A to Z, digits and _, numbers and + - * / ^ '";
 }
 
 std::vector<std::string> names_behind_velocity(std::string_view unknown) {

@@ -35,4 +35,37 @@ inline void expect_refusal(const Wrong& wrong) {
   }
 }
 
+/// The lines on standard error behind "moreau: FILE:", of a file that is refused.
+inline std::vector<std::string> told(const std::string& text) {
+  const Folder folder;
+  const std::string file = folder.write(text.starts_with("{") ? "a.json" : "a.toml", text);
+  const Outcome outcome = run({"solve", file});
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  std::vector<std::string> lines;
+  const std::string before = "moreau: " + file + ":";
+  for (std::size_t at = 0; at < outcome.err.size();) {
+    const std::size_t end = outcome.err.find('\n', at);
+    const std::string line = outcome.err.substr(at, end - at);
+    CHECK(line.starts_with(before));
+    CHECK(line.find("; ") != std::string::npos);
+    lines.push_back(line.substr(before.size()));
+    at = end + 1;
+  }
+  return lines;
+}
+
+/// Checks that these are the lines, by their beginnings behind "moreau: FILE:".
+inline void check_told(const std::string& text, const std::vector<std::string>& beginnings) {
+  const std::vector<std::string> lines = told(text);
+  CAPTURE(text);
+  REQUIRE(lines.size() == beginnings.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    CAPTURE(lines[k]);
+    CAPTURE(beginnings[k]);
+    CHECK(lines[k].starts_with(beginnings[k]));
+  }
+}
+
 }  // namespace tests

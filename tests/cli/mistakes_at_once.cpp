@@ -3,46 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/problem_file/toml_document.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/cli/error_form.hpp"
 
 using Json = nlohmann::ordered_json;
 using namespace tests;
-
-namespace {
-
-/// The lines on standard error behind "moreau: FILE:", of a file that is refused.
-std::vector<std::string> told(const std::string& text) {
-  const Folder folder;
-  const std::string file = folder.write(text.starts_with("{") ? "a.json" : "a.toml", text);
-  const Outcome outcome = run({"solve", file});
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.out.empty());
-  std::vector<std::string> lines;
-  const std::string before = "moreau: " + file + ":";
-  for (std::size_t at = 0; at < outcome.err.size();) {
-    const std::size_t end = outcome.err.find('\n', at);
-    const std::string line = outcome.err.substr(at, end - at);
-    CHECK(line.starts_with(before));
-    CHECK(line.find("; ") != std::string::npos);
-    lines.push_back(line.substr(before.size()));
-    at = end + 1;
-  }
-  return lines;
-}
-
-void check_told(const std::string& text, const std::vector<std::string>& beginnings) {
-  const std::vector<std::string> lines = told(text);
-  CAPTURE(text);
-  REQUIRE(lines.size() == beginnings.size());
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    CAPTURE(lines[k]);
-    CAPTURE(beginnings[k]);
-    CHECK(lines[k].starts_with(beginnings[k]));
-  }
-}
-
-}  // namespace
 
 TEST_CASE("mistakes of a file that do not hang on each other are told at once, in the order of the file") {
   check_told(point_on_floor({{4, "potential = \"m*g*sinn(y)\""},
@@ -172,38 +136,6 @@ TEST_CASE("wrong values within one function are told at once, each at the argume
   // What a stand-in may have made is not told: with all of space for the ball the sum would be improper.
   check_told("[decomposition]\nz = [1]\nf = \"inf_convolution(ball2(radius=-1), linear([1]))\"\n",
              {"3:28: ball2(radius): negative; "});
-}
-
-TEST_CASE("what stands at the top and belongs below a table is read there") {
-  check_told(point_on_floor({{8, "[constraints]"}, {9, "floor = \"y => 0\""}}),
-             {"8:2: unknown key \"constraints\"; ", "9:12: constraint floor: "});
-  check_told(point_on_floor({{1, "until = -1"}, {2, "[system]\ncoordinates = [\"x\", \"y\"]"}}),
-             {"1:1: unknown key \"until\"; it belongs below [simulate]"});
-  check_told("A = [[1, 0], [0]]\nz = [1, 2]\n", {"1:1: unknown key \"A\"; it belongs below [projection]",
-                                                 "1:14: A[1]: 1 entry; ", "2:1: unknown key \"z\"; "});
-  check_told(point_on_floor({{1, ""}}),
-             {"2:1: unknown key \"coordinates\"; it belongs below [system]", "3:1: unknown key \"kinetic\"; ",
-              "4:1: unknown key \"potential\"; "});
-}
-
-TEST_CASE("what stands below a table of names and belongs elsewhere is told where, and read there") {
-  // Without its place a potential was a definition that nothing uses: the point had no weight, and nothing
-  // was said.
-  check_told(
-      point_on_floor({{4, "[system.definitions]\npotential = \"m*g*y\""}}),
-      {"5:1: system.definitions.potential: this is of [system]; write it above [system.definitions], "});
-  check_told(point_on_floor({{4, ""}, {7, "g = 9.81\npotential = \"m*g*yy\""}}),
-             {"8:1: system.parameters.potential: ", "8:18: potential: \"yy\" is unknown; "});
-  check_told(point_on_floor({{10, ""}}),
-             {"11:1: system.constraints.position: this is of [state]; write [state] above it",
-              "12:1: system.constraints.velocity: "});
-  check_told(
-      "[liquid]\ncoordinates = [\"x\"]\ndomain = \"interval(low=0, high=1)\"\ndensity = 1\n"
-      "[liquid.parameters]\nw = 1\nfree = { top = { where = \"true\", pressure = \"1\" } }\n",
-      {"7:1: liquid.parameters.free: this is of [liquid]; write it above [liquid.parameters]"});
-  // A name of one's own is one where nothing is missed, and in a liquid.
-  const Outcome own = run_on("solve", point_on_floor({{6, "m = 2.0\npotential = 1"}}));
-  CHECK(own.code == 0);
 }
 
 TEST_CASE("a name that no method has is told beside what else is wrong") {

@@ -111,6 +111,34 @@ TEST_CASE("what simulate is told does not disturb solve") {
   CHECK(answer(text) == answer(point_on_floor()));
 }
 
+TEST_CASE("a key that the method of a motion does not use is told, once the file chooses the method") {
+  const auto told = [](const std::string& keys, const std::vector<std::string>& more = {}) {
+    const Folder folder;
+    std::vector<std::string> arguments{
+        "simulate",
+        folder.write("a.toml",
+                     "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\n[state]\nposition = { y = 0 }\n"
+                     "[simulate]\nuntil = 0.1\n" +
+                         keys)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    CHECK(outcome.code == 0);
+    return outcome.err;
+  };
+  const std::string step = "step = 1e-2\n", tolerance = "tolerance = 1e-8\n",
+                    steps = "method = \"time-stepping\"\n", events = "method = \"event-driven\"\n";
+  CHECK(told(step).find(": line 8: simulate.step is not used by event-driven, the default; write method = "
+                        "\"time-stepping\"") != std::string::npos);
+  CHECK(told(events + step).find(": line 9: simulate.step is not used by event-driven; ") !=
+        std::string::npos);
+  CHECK(told(steps + tolerance).find(": line 9: simulate.tolerance is not used by time-stepping") !=
+        std::string::npos);
+  for (const std::string& keys : {steps + step, events + tolerance, tolerance}) CHECK(told(keys).empty());
+  CHECK(told("method = \"auto\"\n" + step + tolerance).find("not used") == std::string::npos);
+  CHECK(told(step, {"--method", "event-driven"}).empty());
+  CHECK(told(tolerance, {"--method", "time-stepping"}).empty());
+}
+
 TEST_CASE("an answer that is not solved is no truth to judge the rule of dropping by") {
   const Outcome wrong = run({"solve", "--method", "drop-negative",
                              tests::source_folder() + "docs/problems/delassus_drops_too_much.toml"});
