@@ -28,7 +28,7 @@ Numbers numbers_of(py::handle numbers, const char* name) {
   Numbers made = Numbers::ensure(numbers);
   if (!made) {
     PyErr_Clear();
-    throw InvalidInput(std::string(name) + ": not numbers; give a list or an array of numbers");
+    throw InvalidInput(std::string(name) + ": not numbers, or rows of different lengths; give a list or an array of numbers");
   }
   return made;
 }

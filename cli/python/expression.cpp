@@ -16,6 +16,23 @@ bool takes_the_product(const convex::Call& call) {
   });
 }
 
+bool has_parts(const convex::Call& call) {
+  return std::any_of(call.arguments.begin(), call.arguments.end(), [](const convex::NamedArgument& argument) {
+    return std::holds_alternative<std::shared_ptr<const convex::Call>>(argument.value);
+  });
+}
+
+/// The length of a vector, or of the rows of a matrix, among the arguments: the number of entries, as a rule.
+convex::Index suggested_entries(const convex::Call& call) {
+  for (const convex::NamedArgument& argument : call.arguments) {
+    if (const auto* x = std::get_if<convex::Vector>(&argument.value))
+      return std::max<convex::Index>(1, x->size());
+    if (const auto* A = std::get_if<convex::Matrix>(&argument.value))
+      return std::max<convex::Index>(1, A->cols());
+  }
+  return 1;
+}
+
 }  // namespace
 
 Expression::Expression(convex::Call call)
@@ -30,6 +47,22 @@ convex::Function Expression::in(const convex::Metric& W) const {
     last_entries_ = W.dimension();
   }
   return made;
+}
+
+void Expression::require_possible() const {
+  if (call_.made || has_parts(call_)) return;
+  const convex::Index n = suggested_entries(call_);
+  const std::string wrong = refusal(n);
+  if (!wrong.empty() && wrong == refusal(n + 1)) throw convex::InvalidInput(wrong, call_.place);
+}
+
+std::string Expression::refusal(convex::Index n) const {
+  try {
+    static_cast<void>(in(convex::Metric::identity(n)));
+    return "";
+  } catch (const convex::InvalidInput& error) {
+    return error.what();
+  }
 }
 
 bool has_user_function(const convex::Call& call) {

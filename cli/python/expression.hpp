@@ -16,8 +16,14 @@ class Expression {
   const convex::Call& call() const { return call_; }
   /// The function in the space with the product of W. Throws InvalidInput as `make_function`.
   convex::Function in(const convex::Metric& W) const;
+  /// Throws InvalidInput for data that are wrong whatever the number of entries is, as box(2, 1). Of
+  /// functions of functions nothing is said: whether domains meet may depend on that number.
+  void require_possible() const;
 
  private:
+  /// Why there is no such function of n entries; "" where there is.
+  std::string refusal(convex::Index n) const;
+
   convex::Call call_;
   bool depends_on_product_;
   mutable std::optional<convex::Function> last_;  ///< of `last_entries_`, where only their number matters

@@ -37,9 +37,9 @@ convex::Argument argument_value(const py::handle& given, const std::string& name
   const py::array_t<double> numbers = py::array_t<double>::ensure(given);
   if (!numbers) {
     PyErr_Clear();
-    throw InvalidInput(
-        name +
-        ": an argument is neither a number, a vector, a matrix, a set nor a function; see its docstring");
+    throw InvalidInput(name +
+                       ": an argument is neither a number, a vector, a matrix with rows of one length, a set "
+                       "nor a function; see its docstring");
   }
   if (numbers.ndim() == 0) return *numbers.data();
   if (numbers.ndim() == 1) return vector_of(given, name.c_str());
@@ -56,6 +56,14 @@ void require_known(const Call& call) {
   for (const NamedArgument& argument : call.arguments)
     if (const auto* nested = std::get_if<std::shared_ptr<const Call>>(&argument.value))
       require_known(**nested);
+}
+
+/// The same for data that no number of entries makes possible, here and inside.
+void require_possible(const Call& call) {
+  expression_of(call)->require_possible();
+  for (const NamedArgument& argument : call.arguments)
+    if (const auto* nested = std::get_if<std::shared_ptr<const Call>>(&argument.value))
+      require_possible(**nested);
 }
 
 /// name(arguments) as a call, its arguments matched to the entry's parameters.
@@ -238,11 +246,14 @@ for x -> f(Ax). Envelopes, supports and proximal averages take the product of th
           },
           py::is_operator());
   module.def("call", [](const std::string& name, const py::args& positional, const py::kwargs& named) {
-    return shared(call_of(name, positional, named));
+    const Shared made = shared(call_of(name, positional, named));
+    made->require_possible();
+    return made;
   });
   module.def("parse", [](const std::string& text) {
     const Call call = cli::parse_known_call(text, "f");
     require_known(call);
+    require_possible(call);
     return shared(call);
   });
   module.def("user", [](py::object user_value, py::object prox, Index n, const std::string& name) {

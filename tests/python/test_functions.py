@@ -48,6 +48,21 @@ class Language(unittest.TestCase):
         with self.assertRaises(TypeError):
             norm1() * norm1()
 
+    def test_data_that_no_number_of_entries_makes_possible_are_refused_when_they_are_given(self):
+        for make, message in ((lambda: moreau.quadratic([[1, 0], [0, -1]]), "quadratic.Q.: a diagonal entry is negative"),
+                              (lambda: moreau.quadratic([[1, 0], [0]]), "rows of one length"),
+                              (lambda: moreau.box(2, 1), "box: lower > upper"),
+                              (lambda: moreau.norm1(-1), "norm1.weight.: negative"),
+                              (lambda: moreau.polyhedron([[1], [-1]], [-1, -1]), "polyhedron: .inf everywhere"),
+                              (lambda: moreau.function("sum(norm1(), ball2(-1))"), "ball2.radius.: negative")):
+            with self.subTest(message), self.assertRaisesRegex(moreau.InvalidInput, message):
+                make()
+        # That there are enough entries shows with them: 0.3 in each of four adds up to 1.
+        thin = moreau.indicator(moreau.simplex(1)) + moreau.indicator(moreau.box(0, 0.3))
+        np.testing.assert_allclose(moreau.prox(thin, [0, 0, 0, 1]), [7/30, 7/30, 7/30, 0.3])
+        np.testing.assert_allclose(moreau.prox(moreau.sum_largest(3), [9, 9, 9, 0]), [8, 8, 8, 0])
+        self.assertRaises(moreau.InvalidInput, moreau.prox, thin, [0, 1])
+
     def test_a_function_times_zero_is_not_called_nonconvex(self):
         with self.assertRaisesRegex(moreau.InvalidInput, r"^a function times 0: .* zero\(\)$"):
             0 * norm1()
@@ -130,7 +145,7 @@ class UserFunctions(unittest.TestCase):
     def test_a_wrong_prox_is_refused_with_the_law_and_a_counterexample(self):
         for wrong in (lambda z, W: 0.5 * z, lambda z, W: softened(z, 2 * W.solve(np.ones(len(z)))),
                       lambda z, W: -softened(z, 1)):
-            with self.assertRaisesRegex(moreau.InvalidInput, r"(?s)laws.*FAILED.* at z = \["):
+            with self.assertRaisesRegex(moreau.InvalidInput, r'(?s)breaks the law ".*" at z = \[.*FAILED.* at z = \['):
                 moreau.user_function(lambda x: float(np.abs(x).sum()), wrong)
 
     def test_what_needs_more_than_value_and_prox_is_refused(self):

@@ -100,6 +100,7 @@ class Numbers(unittest.TestCase):
                                (dict(z="ab"), "z: not numbers"),
                                (dict(z=np.zeros((1, 1, 2))), "z: "),
                                (dict(U=np.ones((2, 3))), "U"),
+                               (dict(U=[[1, 0], [1]]), "U: rows of different lengths"),
                                (dict(s=[0.0]), "s: "),
                                (dict(two_sided=[5]), "no row 5"),
                                (dict(two_sided=np.array([False, True])), "two_sided: booleans; .*flatnonzero"),

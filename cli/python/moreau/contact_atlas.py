@@ -8,6 +8,7 @@ import os
 import numpy as np
 
 from . import _moreau
+from .functions import axes_of
 from .problems import document_of, written
 
 Cell = collections.namedtuple("Cell", "contacts freedom probability error_bound neighbours walls explored")
@@ -123,10 +124,10 @@ def atlas(problem=None, /, *, A=None, z=None, U=None, s=None, two_sided=None, me
 
 def _projection(A, z, U, s, two_sided):
     rows = U.toarray() if hasattr(U, "toarray") else U
-    n = np.shape(rows)[1] if np.ndim(rows) == 2 else 0
+    n = np.shape(rows)[1] if axes_of(rows, "U") == 2 else 0
     if n == 0:
         raise _moreau.InvalidInput("U: not a matrix of contacts; give one row a contact")
     A = np.eye(n) if A is None else A.gram if isinstance(A, _moreau.Metric) else A
-    table = {"A": {"diagonal": A} if np.ndim(A) == 1 else A, "U": rows, "z": [0] * n if z is None else z,
+    table = {"A": {"diagonal": A} if axes_of(A, "A") == 1 else A, "U": rows, "z": [0] * n if z is None else z,
              "s": [0] * len(rows) if s is None else s}
     return {"projection": table | ({} if two_sided is None else {"two_sided": two_sided})}

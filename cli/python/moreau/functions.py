@@ -23,6 +23,14 @@ class Inaccurate(ArithmeticError):
         self.x, self.status, self.error_bound = x, status, error_bound
 
 
+def axes_of(numbers, name):
+    """How many axes a list or an array has. Raises InvalidInput where its rows differ in length."""
+    try:
+        return np.ndim(numbers)
+    except ValueError:
+        raise InvalidInput(f"{name}: rows of different lengths; give rows of one length") from None
+
+
 def _require_function(f):
     if not isinstance(f, Function):
         raise InvalidInput(f"f: a {type(f).__name__}; give a Function, such as norm1() or function(\"norm1()\")")
@@ -38,7 +46,7 @@ def prox(f, z, W=None):
     when the error bound is not met.
     """
     _require_function(f)
-    if np.ndim(z) == 2:
+    if axes_of(z, "z") == 2:
         x, codes, bounds = _moreau.prox_batch(f, z, W)
         if codes.any():
             first = int(np.flatnonzero(codes)[0])
@@ -255,5 +263,7 @@ def user_function(value, prox, n=0, name="user_function", check=3):
     if check:
         report = _moreau.laws(made, n or check)
         if not report.passed:
-            raise InvalidInput(f"{name}: it breaks the laws of a prox; correct it, or give check=0\n{report}")
+            law = next(check for check in report.checks if not check.passed)
+            at = f" at {law.counterexample}" if law.counterexample else ""
+            raise InvalidInput(f"{name}: it breaks the law \"{law.name}\"{at}; correct it, or give check=0\n{report}")
     return made

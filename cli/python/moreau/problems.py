@@ -8,7 +8,7 @@ import warnings
 import numpy as np
 
 from . import _moreau
-from .functions import STATUS
+from .functions import STATUS, axes_of
 
 
 class SceneWarning(UserWarning):
@@ -142,5 +142,6 @@ def _is_batch(A, z, U, s):
     if type(z) is np.ndarray and z.ndim == 1 and type(s) is np.ndarray and s.ndim == 1:
         if type(U) is np.ndarray and U.ndim == 2 and type(A) is np.ndarray and A.ndim <= 2:
             return False
-    axes = lambda x: 0 if x is None or isinstance(x, _moreau.Metric) or hasattr(x, "tocsr") else np.ndim(x)
-    return axes(z) == 2 or axes(s) == 2 or axes(U) == 3 or axes(A) == 3
+    axes = {name: 0 if x is None or isinstance(x, _moreau.Metric) or hasattr(x, "tocsr") else axes_of(x, name)
+            for name, x in (("A", A), ("z", z), ("U", U), ("s", s))}
+    return axes["z"] == 2 or axes["s"] == 2 or axes["U"] == 3 or axes["A"] == 3
