@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/counted.hpp"
 #include "convex/functions/quadratic.hpp"
 #include "convex/functions/sets.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
@@ -24,8 +25,8 @@ convex::Function gauss_function(const convex::NearestPointProblem& problem) {
 
 convex::Vector gauss_gradient(const convex::NearestPointProblem& problem, const convex::Vector& q) {
   if (q.size() != problem.dimension())
-    throw convex::InvalidInput("gauss_gradient: " + std::to_string(q.size()) + " entries; give " +
-                               std::to_string(problem.dimension()) + ", one per coordinate");
+    throw convex::InvalidInput("gauss_gradient: " + convex::counted(q.size(), "entry", "entries") +
+                               "; give " + std::to_string(problem.dimension()) + ", one per coordinate");
   return -convex::stationarity_residual(problem, convex::DoubleDoubleVector(q), {},
                                         convex::DoubleDoubleVector(0));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/sweeps.hpp"
@@ -174,7 +175,7 @@ ContactRows LagrangianSystem::contact_rows(const State& state, const std::vector
 Vector LagrangianSystem::second_rates(const State& state, const Vector& q2) const {
   const Values x = values_of_contacts(*model_, state);
   if (q2.size() != state.q.size())
-    throw convex::InvalidInput("acceleration: " + std::to_string(q2.size()) + " entries; give " +
+    throw convex::InvalidInput("acceleration: " + convex::counted(q2.size(), "entry", "entries") + "; give " +
                                std::to_string(state.q.size()) + ", one per coordinate");
   Vector result =
       at_roots(model_->contacts, rates<double>(model_->contacts, x, numbers(state.v), &q2).second);

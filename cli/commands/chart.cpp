@@ -22,6 +22,7 @@
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "cli/report/text_table.hpp"
+#include "convex/counted.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace cli::inline commands {
@@ -135,8 +136,9 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
            t.is_right() && !std::isnan(error) && exceeds(error, t.setting) ? "few-digits"
                                                                            : verdict_text(t.verdict())});
     }
-    text += fmt::format("{}: {} coordinates, {} contacts\n{}\n", problem, here.front().n, here.front().m,
-                        table.text());
+    text +=
+        fmt::format("{}: {}, {}\n{}\n", problem, convex::counted(here.front().n, "coordinate", "coordinates"),
+                    convex::counted(here.front().m, "contact", "contacts"), table.text());
   }
   return text;
 }

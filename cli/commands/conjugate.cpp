@@ -19,6 +19,7 @@
 #include "cli/report/conjugate_formula.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/counted.hpp"
 #include "convex/functions/decomposition.hpp"
 #include "convex/proved_prox/proved_conjugate.hpp"
 
@@ -60,8 +61,8 @@ ConjugateQuestion read_question(const FunctionOptions& options, Source& source) 
     source = {"--metric", *options.metric};
     W = parse_metric(*options.metric);
     if (y && W->dimension() != y->size())
-      throw InvalidInput(
-          fmt::format("metric: {} rows; give {}, one per entry of y", W->dimension(), y->size()));
+      throw InvalidInput(fmt::format("metric: {}; give {}, one per entry of y",
+                                     convex::counted(W->dimension(), "row", "rows"), y->size()));
   }
   source = {"f", options.expression};
   const convex::Call call = parse_known_call(options.expression, "f");
@@ -165,7 +166,9 @@ std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAns
   std::string text = fmt::format("f = {}\ng = {}\n", to_text(question.f.call()), to_text(g.call()));
   text += fmt::format(
       "where g(y) = sup over x of {} - f(x){}\n", plain ? "x·y" : "x·Wy",
-      question.f.dimension() == 0 && plain ? "" : fmt::format(", with {} entries", question.W.dimension()));
+      question.f.dimension() == 0 && plain
+          ? ""
+          : fmt::format(", with {}", convex::counted(question.W.dimension(), "entry", "entries")));
   if (const std::string formula = plain ? conjugate_formula(question.f.call(), question.W.dimension()) : "";
       !formula.empty())
     text += "that is, g(y) = " + formula + "\n";

@@ -15,6 +15,7 @@
 #include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/resolved_scene.hpp"
+#include "convex/counted.hpp"
 #include "mechanics/angles_in_degrees.hpp"
 
 namespace cli::inline commands {
@@ -99,9 +100,9 @@ std::string derive_text(const Scene& scene) {
   const auto& [A, z, U, s, two_sided, radii] = scene.problem;
   const std::string text = heading(scene.title, scene.file);
   if (A.dimension() > widest)
-    return text +
-           fmt::format("{} coordinates, {} contacts: too wide for the screen; --json gives A, z, U and s.\n",
-                       A.dimension(), U.count());
+    return text + fmt::format("{}, {}: too wide for the screen; --json gives A, z, U and s.\n",
+                              convex::counted(A.dimension(), "coordinate", "coordinates"),
+                              convex::counted(U.count(), "contact", "contacts"));
   std::vector<std::string> heading{"A q'' = z"};
   heading.insert(heading.end(), scene.coordinates.begin(), scene.coordinates.end());
   heading.emplace_back("z");

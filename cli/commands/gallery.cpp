@@ -15,6 +15,7 @@
 #include "cli/problem_file/write_projection.hpp"
 #include "cli/report/library_files.hpp"
 #include "cli/report/text_table.hpp"
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
@@ -146,7 +147,9 @@ void write_all(const GalleryOptions& options) {
     json.end_object();
     fmt::print("{}\n", json.text());
   } else if (!options.quiet) {
-    fmt::print("{} problems with their truth in {}; index.csv lists them\n", written, *options.write);
+    fmt::print("{} in {}; index.csv lists them\n",
+               convex::counted(written, "problem with its truth", "problems with their truth"),
+               *options.write);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "cli/report/solve_progress.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
+#include "convex/counted.hpp"
 #include "mechanics/liquid/liquid_language.hpp"
 
 namespace cli::inline commands {
@@ -326,10 +327,11 @@ std::string liquid_text(const SolvedLiquid& solved) {
                 : "What h sums up to is not known: it has no bound on a part of the line.\n";
   if (found.status == Status::inaccurate) text += missed_text(solved);
   if (solved.level == "enclosure")
-    return text + fmt::format(
-                      "Method {}, {} unknowns. Proved: p is within {:.1e} of that of the scene as written.\n",
-                      found.method, found.unknowns, found.error_bound);
-  text += fmt::format("Method {}, {} unknowns; ", found.method, found.unknowns);
+    return text + fmt::format("Method {}, {}. Proved: p is within {:.1e} of that of the scene as written.\n",
+                              found.method, convex::counted(found.unknowns, "unknown", "unknowns"),
+                              found.error_bound);
+  text +=
+      fmt::format("Method {}, {}; ", found.method, convex::counted(found.unknowns, "unknown", "unknowns"));
   return text + (std::isinf(found.error_bound)
                      ? "how near p is, is not known.\n"
                      : fmt::format("p is known to {:.1e}{}.\n", found.error_bound, of_largest(found)));

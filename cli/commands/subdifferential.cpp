@@ -65,8 +65,8 @@ ToldSubdifferential find_subdifferential(const SubdifferentialOptions& options, 
     in_doubles = parse_metric(*options.metric);
     W = parse_exact_metric(*options.metric);
     if (W.dimension() != told.x.size())
-      throw InvalidInput(
-          fmt::format("metric: {} rows; give {}, one per entry of x", W.dimension(), told.x.size()));
+      throw InvalidInput(fmt::format("metric: {}; give {}, one per entry of x",
+                                     convex::counted(W.dimension(), "row", "rows"), told.x.size()));
   }
   source = {"f", options.expression};
   told.f = parse_known_call(options.expression, "f");

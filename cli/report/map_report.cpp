@@ -5,6 +5,7 @@
 #include "cli/json_writer.hpp"
 #include "cli/report/symbolic_report.hpp"
 #include "cli/report/text_table.hpp"
+#include "convex/counted.hpp"
 #include "convex/symbolic/function.hpp"
 
 namespace cli::inline reports {
@@ -140,14 +141,18 @@ std::string map_text(const JudgedMap& judged) {
   const std::string range = judged.is_table ? ""
                                             : fmt::format("[{}, {}]", fraction_text(judged.seen.first),
                                                           fraction_text(judged.seen.second));
-  std::string text = fmt::format("Not refuted at {} points{}, on cycles through them", verdict.points,
-                                 judged.is_table ? "" : " of " + range);
-  if (verdict.polygons > 0) text += fmt::format(" and on {} polygons", verdict.polygons);
+  std::string text =
+      fmt::format("Not refuted at {}{}, on cycles through them",
+                  convex::counted(verdict.points, "point", "points"), judged.is_table ? "" : " of " + range);
+  if (verdict.polygons > 0)
+    text += fmt::format(" and on {}", convex::counted(verdict.polygons, "polygon", "polygons"));
   text += ". Sampling can only refute: this is no proof.\n";
-  if (verdict.undefined > 0) text += fmt::format("At {} points the map has no value.\n", verdict.undefined);
+  if (verdict.undefined > 0)
+    text +=
+        fmt::format("At {} the map has no value.\n", convex::counted(verdict.undefined, "point", "points"));
   if (verdict.symmetric_at > 0)
-    text += fmt::format("Jacobian times metric: symmetric at {} points, by exact derivatives.\n",
-                        verdict.symmetric_at);
+    text += fmt::format("Jacobian times metric: symmetric at {}, by exact derivatives.\n",
+                        convex::counted(verdict.symmetric_at, "point", "points"));
   else if (verdict.asymmetry > 0)
     text += fmt::format("Jacobian times metric: symmetric to {}, by differences.\n",
                         error_text(verdict.asymmetry));
@@ -157,8 +162,8 @@ std::string map_text(const JudgedMap& judged) {
                 : "As far as it was seen, on " + range + ", it is the prox of, up to a constant,\n";
     text += cases_text("f(x)", "x", convex::symbolic::formula(*judged.function));
   } else if (!judged.grid.empty()) {
-    text += fmt::format("f is known at {} points T z, if it is a prox; --data F.csv writes them.\n",
-                        judged.grid.size());
+    text += fmt::format("f is known at {} T z, if it is a prox; --data F.csv writes them.\n",
+                        convex::counted(judged.grid.size(), "point", "points"));
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include "convex/composite/epigraph.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
+#include "convex/counted.hpp"
 #include "convex/infinity.hpp"
 
 namespace convex::inline composite {
@@ -13,7 +14,7 @@ namespace {
 
 void check_sizes(const GraphForm& f, Index n) {
   if (f.n != n)
-    throw InvalidInput("graph form: a function of " + std::to_string(f.n) + " entries at a point of " +
+    throw InvalidInput("graph form: a function of " + counted(f.n, "entry", "entries") + " at a point of " +
                        std::to_string(n) + "; give one of the same size");
 }
 

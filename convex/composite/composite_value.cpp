@@ -4,6 +4,7 @@
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
+#include "convex/counted.hpp"
 #include "convex/infinity.hpp"
 
 namespace convex::inline composite {
@@ -107,8 +108,8 @@ Value value_of_dual(const SaddleProblem& problem, const SaddlePoint& point, doub
 
 GraphValue evaluate(const GraphForm& given, const Vector& x) {
   if (given.n != x.size())
-    throw InvalidInput("graph form: a function of " + std::to_string(given.n) + " entries at a point of " +
-                       std::to_string(x.size()) + "; give one of the same size");
+    throw InvalidInput("graph form: a function of " + counted(given.n, "entry", "entries") +
+                       " at a point of " + std::to_string(x.size()) + "; give one of the same size");
   if (given.k == 0) return direct_value(given, x);
   const GraphForm f = with_attained_infimum(given);
   const SaddleProblem problem = saddle_problem(at_x(f, x), Vector(0), Metric::identity(0), Look{});

@@ -1,6 +1,7 @@
 #include <numeric>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/sets.hpp"
@@ -20,8 +21,8 @@ class GroupBall : public ConvexSet {
   Index dimension() const override { return std::accumulate(sizes_.begin(), sizes_.end(), Index{0}); }
   void require_size(Index n, const std::string& name) const override {
     if (size_ > 0 && n % size_ != 0)
-      throw InvalidInput(name + "(sizes): " + std::to_string(n) + " entries are no groups of " +
-                         std::to_string(size_) + "; give a divisor, or a size for each group");
+      throw InvalidInput(name + "(sizes): no groups of " + std::to_string(size_) + " have " +
+                         counted(n, "entry", "entries") + "; give a divisor, or a size for each group");
   }
   Call call() const override { return named("group_ball", "radius"); }
   Call support_call() const override { return named("group_norm", "weight"); }

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/double_double.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
@@ -120,9 +121,9 @@ class CappedSimplex : public Polytope {
   void require_size(Index n, const std::string& name) const override {
     if (!(total_ > static_cast<double>(n) * cap_)) return;
     if (name == "sum_largest")
-      throw InvalidInput(name + ": " + std::to_string(n) + " entries have no " + to_text(total_) +
-                         " largest; give a smaller k");
-    throw InvalidInput(name + ": " + std::to_string(n) + " entries of at most " + to_text(cap_) +
+      throw InvalidInput(name + ": there are no " + to_text(total_) + " largest of " +
+                         counted(n, "entry", "entries") + "; give a smaller k");
+    throw InvalidInput(name + ": " + counted(n, "entry", "entries") + " of at most " + to_text(cap_) +
                        " cannot sum to " + to_text(total_) + ", so the set is empty; give a smaller sum");
   }
   Call call() const override {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/counted.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/program_function.hpp"
@@ -22,8 +23,8 @@ class LargestEntriesBall : public ConvexSet {
   Index dimension() const override { return 0; }
   void require_size(Index n, const std::string& name) const override {
     if (n < k_)
-      throw InvalidInput(name + "(k): " + std::to_string(k_) + " of " + std::to_string(n) +
-                         " entries; give k from 1 to the number of entries");
+      throw InvalidInput(name + "(k): " + std::to_string(k_) + " of " + counted(n, "entry", "entries") +
+                         "; give k from 1 to the number of entries");
   }
   Call call() const override { return named("largest_entries_ball", "radius"); }
   Call support_call() const override { return named("k_support", "weight"); }
@@ -88,8 +89,8 @@ Set largest_entries_ball(double k, double radius) {
 Function total_variation_2d(double weight, Index rows, Index n) {
   require_nonnegative("total_variation_2d", "weight", weight);
   if (rows < 1 || n % rows != 0)
-    throw InvalidInput("total_variation_2d(rows): " + std::to_string(n) + " entries are no matrix of " +
-                       std::to_string(rows) + " rows; give a divisor");
+    throw InvalidInput("total_variation_2d(rows): no matrix of " + counted(rows, "row", "rows") + " has " +
+                       counted(n, "entry", "entries") + "; give a divisor");
   const SparseMatrix D = neighbour_differences(rows, n / rows);
   const Vector none = Vector::Zero(D.rows());
   const LinearQuadratic form =

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/sets.hpp"
@@ -25,8 +26,8 @@ class SpectralBall : public ConvexSet {
   Index dimension() const override { return 0; }
   void require_size(Index n, const std::string& name) const override {
     if (n % rows_ != 0)
-      throw InvalidInput(name + "(rows): " + std::to_string(n) + " entries are no matrix of " +
-                         std::to_string(rows_) + " rows; give a divisor");
+      throw InvalidInput(name + "(rows): no matrix of " + counted(rows_, "row", "rows") + " has " +
+                         counted(n, "entry", "entries") + "; give a divisor");
   }
   Call call() const override { return named("spectral_ball", "radius"); }
   Call support_call() const override { return named("nuclear_norm", "weight"); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
@@ -32,11 +33,11 @@ class SchattenBall : public ConvexSet {
   Index dimension() const override { return 0; }
   void require_size(Index n, const std::string& name) const override {
     if (rows_ == 0 && square_order(n) == 0)
-      throw InvalidInput(name + "(rows): " + std::to_string(n) +
-                         " entries are no square matrix; give its rows");
+      throw InvalidInput(name + "(rows): no square matrix has " + counted(n, "entry", "entries") +
+                         "; give its rows");
     if (rows_ > 0 && n % rows_ != 0)
-      throw InvalidInput(name + "(rows): " + std::to_string(n) + " entries are no matrix of " +
-                         std::to_string(rows_) + " rows; give a divisor");
+      throw InvalidInput(name + "(rows): no matrix of " + counted(rows_, "row", "rows") + " has " +
+                         counted(n, "entry", "entries") + "; give a divisor");
   }
   Call call() const override { return named("schatten_ball", q_, "radius"); }
   Call support_call() const override { return named("schatten", dual_exponent(q_), "weight"); }
@@ -114,8 +115,7 @@ class Spectraplex : public ConvexSet {
   Index dimension() const override { return 0; }
   void require_size(Index n, const std::string& name) const override {
     if (n == 0 || square_order(n) == 0)
-      throw InvalidInput(name + ": " + std::to_string(n) +
-                         " entries stack no square matrix; give n*n entries");
+      throw InvalidInput(name + ": no square matrix has " + counted(n, "entry", "entries") + "; give n*n");
   }
   Call call() const override { return {"spectraplex", {argument("total", total_)}}; }
   Call support_call() const override { return {"max_eigenvalue", {argument("weight", total_)}}; }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace convex::inline grids {
@@ -34,8 +35,8 @@ void validate(const GridFunction& f, const char* where) {
   Index count = 1;
   for (const Vector& axis : f.axes) count *= axis.size();
   require(f.values.size() == count, where,
-          "there are " + std::to_string(f.values.size()) + " values on a grid of " + std::to_string(count) +
-              " points; give one for each point");
+          "there are " + counted(f.values.size(), "value", "values") + " on a grid of " +
+              counted(count, "point", "points") + "; give one for each point");
   bool proper = false;
   for (Index i = 0; i < count; ++i) {
     require(f.values[i] > -std::numeric_limits<double>::infinity(), where,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "convex/counted.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
@@ -79,8 +80,8 @@ RepeatedProblem& RepeatedProblem::operator=(RepeatedProblem&&) noexcept = defaul
 const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   State& state = *state_;
   if (z.size() != state.problem.dimension() || s.size() != state.problem.rows())
-    throw InvalidInput("z, s: " + std::to_string(z.size()) + " and " + std::to_string(s.size()) +
-                       " entries; give one per coordinate and one per row");
+    throw InvalidInput("z, s: " + std::to_string(z.size()) + " and " + counted(s.size(), "entry", "entries") +
+                       "; give one per coordinate and one per row");
   state.problem.z = z;
   state.problem.s = s;
   state.find();

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/counted.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -120,9 +121,9 @@ Function envelope(const Function& f, double gamma) {
 Function envelope(const Function& f, double gamma, const Metric& M) {
   require_positive(gamma, "envelope", "gamma");
   if (f.dimension() != 0 && f.dimension() != M.dimension())
-    throw InvalidInput("envelope: the metric has " + std::to_string(M.dimension()) +
-                       " rows, the function takes " + std::to_string(f.dimension()) +
-                       " entries; give one of the other's size");
+    throw InvalidInput("envelope: the metric has " + counted(M.dimension(), "row", "rows") +
+                       ", the function takes " + counted(f.dimension(), "entry", "entries") +
+                       "; give one of the other's size");
   if (M.kind() == MetricKind::identity) return envelope(f, gamma);
   return Function(std::make_shared<Envelope>(f, gamma, M));
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/counted.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/exact_end.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -182,9 +183,9 @@ Function InProduct::conjugate() const {
 
 Function in_product(const Function& h, const Metric& M, const std::optional<Function>& f) {
   if (h.dimension() != 0 && h.dimension() != M.dimension())
-    throw InvalidInput("conjugate: the metric has " + std::to_string(M.dimension()) +
-                       " rows, the function takes " + std::to_string(h.dimension()) +
-                       " entries; give one of the other's size");
+    throw InvalidInput("conjugate: the metric has " + counted(M.dimension(), "row", "rows") +
+                       ", the function takes " + counted(h.dimension(), "entry", "entries") +
+                       "; give one of the other's size");
   if (M.kind() == MetricKind::identity) return h;
   if (const auto* inner = dynamic_cast<const ConjugateInProduct*>(&h.node()))
     if (const auto factor = inner->product(M))

@@ -301,6 +301,7 @@ void require_proper(const Function& f, Index n, const char* where) {
   const WorkLimit question;
   const bool by_entry = n == 1 || (f.dimension() == 0 && f.facts().separable);
   if (const auto domain = by_entry ? domain_of_one(f) : std::nullopt) {
+    if (domain->low == infinity || domain->high == -infinity) refuse_empty();  // beyond all numbers
     const double apart = domain->low - domain->high;
     if (apart > 0 && apart <= membership_tolerance * std::max(std::abs(domain->low), std::abs(domain->high)))
       refuse_nearly_met(where, apart);

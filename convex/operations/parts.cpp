@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/gamma0/node.hpp"
 
 namespace convex::inline operations {
@@ -38,7 +39,7 @@ Index common_dimension(std::span<const Function> parts, const char* where) {
     const Index own = f.dimension();
     if (own != 0 && n != 0 && own != n)
       throw InvalidInput(std::string(where) + ": its functions take " + std::to_string(n) + " and " +
-                         std::to_string(own) + " entries; give functions of one size");
+                         counted(own, "entry", "entries") + "; give functions of one size");
     if (own != 0) n = own;
   }
   return n;

@@ -3,6 +3,7 @@
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/counted.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/value.hpp"
@@ -177,9 +178,9 @@ Function average(const Function& f, const Function& g, double t, double gamma, s
   require_positive(gamma, "proximal_average", "gamma");
   for (const Function& part : {f, g})
     if (M && part.dimension() != 0 && part.dimension() != M->dimension())
-      throw InvalidInput("proximal_average: a function takes " + std::to_string(part.dimension()) +
-                         " entries, the metric has " + std::to_string(M->dimension()) +
-                         " rows; give one of the other's size");
+      throw InvalidInput("proximal_average: a function takes " +
+                         counted(part.dimension(), "entry", "entries") + ", the metric has " +
+                         counted(M->dimension(), "row", "rows") + "; give one of the other's size");
   return Function(std::make_shared<ProximalAverage>(f, g, t, gamma, std::move(M)));
 }
 

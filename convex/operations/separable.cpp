@@ -154,8 +154,8 @@ class Separable : public Operation {
 
 Function separable(std::span<const Function> parts, const std::vector<Index>& sizes) {
   if (parts.empty() || parts.size() != sizes.size())
-    throw InvalidInput("separable: " + std::to_string(parts.size()) + " functions and " +
-                       std::to_string(sizes.size()) + " sizes; give each function the size of its block");
+    throw InvalidInput("separable: " + counted(parts.size(), "function", "functions") + " and " +
+                       counted(sizes.size(), "size", "sizes") + "; give each function the size of its block");
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     if (sizes[k] < 1)
       throw InvalidInput("separable: block " + std::to_string(k) +

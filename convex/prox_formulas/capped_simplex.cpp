@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/prox_formulas/water_level.hpp"
@@ -21,14 +22,15 @@ void require_metric(const Vector& z, const Vector& d) {
 
 void require_capped(Index n, double cap, double total) {
   if (!(cap >= 0 && cap < infinity && total >= 0 && total <= static_cast<double>(n) * cap))
-    throw InvalidInput("capped simplex: a total of " + std::to_string(total) + " of " + std::to_string(n) +
-                       " entries between 0 and " + std::to_string(cap) + " is impossible; the set is empty");
+    throw InvalidInput("capped simplex: a total of " + std::to_string(total) + " of " +
+                       counted(n, "entry", "entries") + " between 0 and " + std::to_string(cap) +
+                       " is impossible; the set is empty");
 }
 
 void require_largest(Index n, double k, double weight) {
   if (!(k >= 0 && k <= static_cast<double>(n)))
-    throw InvalidInput("sum_largest: k is " + std::to_string(k) + " for " + std::to_string(n) +
-                       " entries; give 0 <= k <= n");
+    throw InvalidInput("sum_largest: k is " + std::to_string(k) + " for " + counted(n, "entry", "entries") +
+                       "; give 0 <= k <= n");
   if (!(weight >= 0 && weight < infinity))
     throw InvalidInput("sum_largest: the weight is " + std::to_string(weight) +
                        "; give a finite number that is not negative");

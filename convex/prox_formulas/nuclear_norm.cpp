@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_algebra/singular_values.hpp"
 
@@ -75,8 +76,8 @@ Matrix proj_spectral_ball(const Matrix& Z, double radius) {
 
 Vector prox_nuclear_norm(const Vector& z, double weight, Index rows) {
   if (rows < 1 || z.size() % rows != 0)
-    throw InvalidInput("nuclear_norm: " + std::to_string(z.size()) + " entries fill no matrix of " +
-                       std::to_string(rows) + " rows; give a multiple");
+    throw InvalidInput("nuclear_norm: no matrix of " + counted(rows, "row", "rows") + " has " +
+                       counted(z.size(), "entry", "entries") + "; give a multiple");
   const Matrix X = nuclear_norm_prox(Eigen::Map<const Matrix>(z.data(), rows, z.size() / rows), weight).X;
   return Eigen::Map<const Vector>(X.data(), X.size());
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/prox_formulas/norm2.hpp"
 
@@ -15,8 +16,8 @@ constexpr double root_half = std::numbers::sqrt2 / 2;
 
 void require_size(const Vector& z, Index least, const char* cone) {
   if (z.size() < least)
-    throw InvalidInput(std::string(cone) + ": the point has " + std::to_string(z.size()) +
-                       " entries; give at least " + std::to_string(least));
+    throw InvalidInput(std::string(cone) + ": the point has " + counted(z.size(), "entry", "entries") +
+                       "; give at least " + std::to_string(least));
 }
 
 /// The rotation that takes the rotated cone to the plain one: (v, (a - b)/√2, (a + b)/√2).

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/prox_formulas/clones.hpp"
 
@@ -11,8 +12,8 @@ namespace {
 
 void require_size(const Vector& z, const Vector& data, const char* name) {
   if (data.size() != z.size())
-    throw InvalidInput(std::string(name) + ": has " + std::to_string(data.size()) +
-                       " entries for a point of " + std::to_string(z.size()) + "; give one an entry");
+    throw InvalidInput(std::string(name) + ": has " + counted(data.size(), "entry", "entries") +
+                       " for a point of " + std::to_string(z.size()) + "; give one an entry");
 }
 
 [[gnu::always_inline]] inline double clamped(double z, double lower, double upper) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
@@ -49,8 +50,8 @@ Vector stacked(const Matrix& X) { return Eigen::Map<const Vector>(X.data(), X.si
 Index order_of_stacked(const Vector& z) {
   const auto n = static_cast<Index>(std::lround(std::sqrt(static_cast<double>(z.size()))));
   if (n * n != z.size())
-    throw InvalidInput("psd_cone: a vector of " + std::to_string(z.size()) +
-                       " entries stacks no square matrix; give n*n entries");
+    throw InvalidInput("psd_cone: a vector of " + counted(z.size(), "entry", "entries") +
+                       " stacks no square matrix; give n*n entries");
   return n;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/exact/elimination.hpp"
 #include "convex/functions/sets.hpp"
 #include "convex/invalid_input.hpp"
@@ -21,7 +22,7 @@ IntegerVector first_entries(const IntegerVector& v) { return {v.begin(), v.end()
 
 void require_entries(const ExactPolyhedron& P, const Fractions& v) {
   if (v.size() != P.n)
-    throw InvalidInput("polyhedron: a point of " + std::to_string(v.size()) + " entries; give " +
+    throw InvalidInput("polyhedron: a point of " + counted(v.size(), "entry", "entries") + "; give " +
                        std::to_string(P.n));
 }
 

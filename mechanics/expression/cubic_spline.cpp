@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/counted.hpp"
 #include "mechanics/expression/number.hpp"
 
 namespace mechanics::expression {
@@ -18,8 +19,8 @@ double CubicSpline::operator()(double at) const {
 
 std::optional<std::string> fault_of_table(std::span<const double> x, std::span<const double> y) {
   if (x.size() != y.size())
-    return "has " + std::to_string(x.size()) + " points and " + std::to_string(y.size()) +
-           " values; give as many of the one as of the other";
+    return "has " + convex::counted(x.size(), "point", "points") + " and " +
+           convex::counted(y.size(), "value", "values") + "; give as many of the one as of the other";
   if (x.size() < 2) return "has fewer than two points; give at least two";
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!std::isfinite(x[i]) || !std::isfinite(y[i])) return "has a number that is not finite; correct it";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/multipliers/multipliers.hpp"
@@ -153,8 +154,8 @@ std::optional<ImpactLaw> impact_law_named(std::string_view wanted) {
 ImpactOutcome impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts, ImpactLaw law) {
   for (const ImpactContact& contact : contacts) {
     if (contact.u.size() != A.dimension())
-      throw convex::InvalidInput("u of a contact: " + std::to_string(contact.u.size()) + " entries; give " +
-                                 std::to_string(A.dimension()) + ", one per coordinate");
+      throw convex::InvalidInput("u of a contact: " + convex::counted(contact.u.size(), "entry", "entries") +
+                                 "; give " + std::to_string(A.dimension()) + ", one per coordinate");
     if (!contact.u.allFinite() || !std::isfinite(contact.rate))
       throw convex::InvalidInput("u or rate of a contact: not finite; give finite numbers");
     if (!(contact.restitution >= 0 && contact.restitution <= 1))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/counted.hpp"
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
 #include "mechanics/assembly.hpp"
@@ -293,8 +294,8 @@ Orbit find_orbit(const LagrangianSystem& system, const State& first, const Orbit
         "same state at another time goes on otherwise; give the period of what drives it, or a multiple");
   if (const auto n = static_cast<Index>(system.coordinates().size());
       question.modulo.size() != 0 && question.modulo.size() != n)
-    throw convex::InvalidInput("modulo: " + std::to_string(question.modulo.size()) + " entries; give " +
-                               std::to_string(n) + ", one per coordinate, or none");
+    throw convex::InvalidInput("modulo: " + convex::counted(question.modulo.size(), "entry", "entries") +
+                               "; give " + std::to_string(n) + ", one per coordinate, or none");
   const State guess = not_penetrated(system, first, question);
   Orbit orbit = find_orbit_there(system, guess, question);
   const bool is_hidden =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/counted.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_algebra/householder.hpp"
@@ -90,7 +91,7 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
                                                  const Multipliers& multipliers, const Vector& dz,
                                                  const Vector& ds, const std::vector<Index>& weak) {
   if (ds.size() != problem.rows())
-    throw InvalidInput("ds: " + std::to_string(ds.size()) + " entries; give " +
+    throw InvalidInput("ds: " + counted(ds.size(), "entry", "entries") + "; give " +
                        std::to_string(problem.rows()) + ", one per row of U");
   if (!has_digits(problem.A)) return std::nullopt;
   const std::vector<Index>& tight = multipliers.tight;

@@ -97,6 +97,24 @@ TEST_CASE("sets that miss each other by the rounding of what was written are tol
       samples::function("sum(hyperplane([1], 0.33333333333333337), translate(ball1(1/6), [1/2]))", 1));
 }
 
+TEST_CASE("a domain that is empty, or beyond all numbers, is no gap of a length") {
+  // log x at -1 whatever x is; a box moved beyond the largest double.
+  for (const char* f : {"precompose(entropy(), [[1], [0]], [0, -1])",
+                        "sum(translate(indicator(box(1e308, 1.5e308)), [1e308]), indicator(box(0, 1)))"})
+    for (const char* whole : {f, "sum(%, box(0, 1))"}) {
+      std::string text = whole;
+      if (const std::size_t at = text.find('%'); at != std::string::npos) text.replace(at, 1, f);
+      CAPTURE(text);
+      try {
+        samples::function(text, 1);
+        FAIL_CHECK("it was taken");
+      } catch (const InvalidInput& error) {
+        CHECK(std::string(error.what()).find("miss each other") == std::string::npos);
+        CHECK(std::string(error.what()).find("no point has all its functions finite") != std::string::npos);
+      }
+    }
+}
+
 TEST_CASE("what only looks improper is taken") {
   for (const char* text : {
            "sum(indicator(box(0, 1)), indicator(box(1, 2)))",
