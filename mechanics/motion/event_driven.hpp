@@ -215,6 +215,7 @@ class Motion::EventDriven final : public Motion::Course {
   struct Behind {
     double lagrangian;
     Vector momentum, f, rate;
+    Expansion::Roundings roundings;  ///< of these, on the branches before
   };
   std::optional<Behind> behind_;
   Vector left_of_f_;          // by constraint, at a kink: up to here f counts as 0

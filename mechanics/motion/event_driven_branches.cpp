@@ -210,6 +210,12 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
   const double least = record.steps == 0 ? 1 : 0;  // a start is known to the contact tolerance only
   const double length = record.steps == 0 ? 0 : last_length_;
   std::vector<Index> closing, opening, others, released;
+  // f and df/dt of what was held are differences of two sides, each rounded by what it is the sum of.
+  Expansion::Roundings roundings = expansion_.roundings_so_far();
+  if (behind) {
+    roundings.f += behind->roundings.f;
+    roundings.rate += behind->roundings.rate;
+  }
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const bool is_contact = is_among(contacts, a);
     if (is_two_sided(a) && !behind) continue;
@@ -223,9 +229,10 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
     const double rate_scale = expansion_.rate_scale(a);
     double& f_left = left_of_f_[a];
     f_left =
-        std::max(f_left, tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length}));
+        std::max(f_left, tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length}) +
+                             roundings.f[a]);
     if (is_two_sided(a)) {  // holds on the branches behind
-      const double rate_left = tolerance * rate_scale + expansion_.rounding_of_rate(a);
+      const double rate_left = tolerance * rate_scale + roundings.rate[a];
       if (std::abs(f) > f_left) {
         stop("at t = " + number_text(state.t) + ": " + constraint_name(a) + " jumps from 0 to " +
              number_text(expansion_.f(a)) +
@@ -242,7 +249,7 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
       return true;
     }
     if (!is_contact) continue;
-    const double rate_left = tolerance * std::max(least, rate_scale) + expansion_.rounding_of_rate(a);
+    const double rate_left = tolerance * std::max(least, rate_scale) + roundings.rate[a];
     if (f > f_left || rate > rate_left) {
       opening.push_back(a);
       if (!is_leaving) released.push_back(a);

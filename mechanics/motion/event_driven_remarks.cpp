@@ -211,7 +211,8 @@ void Motion::EventDriven::note_behind() {
   behind_.reset();
   if (expansion_.switches() == 0) return;
   const Index m = expansion_.constraints();
-  behind_ = Behind{expansion_.lagrangian(), expansion_.momentum(), Vector(m), Vector(m)};
+  behind_ = Behind{expansion_.lagrangian(), expansion_.momentum(), Vector(m), Vector(m),
+                   expansion_.roundings_so_far()};
   for (Index a = 0; a < m; ++a) {
     behind_->f[a] = expansion_.f(a);
     behind_->rate[a] = expansion_.rate(a);

@@ -170,6 +170,11 @@ class Expansion {
   double rounding_of_rate(Index a);
   /// df_a/dt likewise, where impacts and forces may have brought the velocities down from what they were.
   double rounding_of_rate_so_far(Index a);
+  /// What rounding may have made so of f and df/dt, by constraint.
+  struct Roundings {
+    Vector f, rate;
+  };
+  Roundings roundings_so_far();
   /// What df/dt, and what f, is the sum of.
   double magnitude_of_rate(Index a);
   double magnitude_of_constraint(Index a);

@@ -164,6 +164,17 @@ double Expansion::rounding_of_rate_so_far(Index a) {
   return rounding(0) * if_finite(magnitude_.at(equations_.rate[index(a)], 0));
 }
 
+Expansion::Roundings Expansion::roundings_so_far() {
+  magnitude_.begin(fastest_);
+  magnitude_is_begun_ = false;
+  Roundings found{Vector(constraints()), Vector(constraints())};
+  for (Index a = 0; a < constraints(); ++a) {
+    found.f[a] = rounding(0) * if_finite(magnitude_.at(equations_.constraint[index(a)], 0));
+    found.rate[a] = rounding(0) * if_finite(magnitude_.at(equations_.rate[index(a)], 0));
+  }
+  return found;
+}
+
 Vector Expansion::rounding_of_multipliers(const std::vector<Index>& held) {
   const Magnitudes of = magnitudes(held, 0);
   Vector by_rounding(of.rates.size());

@@ -237,3 +237,34 @@ TEST_CASE("a fall into a pole stops, and what is known by then is told") {
   CHECK(fall.end().q[0] > 0);
   CHECK(fall.end().q[0] < 1e-4);
 }
+
+TEST_CASE("a follower that rests on a cam of a table goes through its knots without an impact") {
+  const std::pair<double, std::vector<double>> cams[] = {{10, {0, 0.0079, 0, 0.0079, 0}},
+                                                         {3, {0.019, 0.01, 0.01, 0, 0.01, 0.01, 0.019}},
+                                                         {30, {0, 0.004, 0.012, 0.015, 0.012, 0.004, 0}}};
+  for (const auto& [w, y] : cams) {
+    // y'' of the natural spline: M_(i-1) + 4 M_i + M_(i+1) = 6 (y_(i-1) - 2 y_i + y_(i+1)), 0 at both ends.
+    std::vector<double> M(y.size(), 0.0);
+    for (int sweep = 0; sweep < 100; ++sweep)  // each halves the error, at least
+      for (std::size_t i = 1; i + 1 < y.size(); ++i)
+        M[i] = (6 * (y[i - 1] - 2 * y[i] + y[i + 1]) - M[i - 1] - M[i + 1]) / 4;
+    std::string knots, values;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      knots += (i > 0 ? ", " : "") + std::to_string(i);
+      values += (i > 0 ? ", " : "") + std::to_string(y[i]);
+    }
+    const std::string cam = "table(" + std::to_string(w) + "*t, [" + knots + "], [" + values + "])";
+    const SystemText follower{{"h"}, "h'^2/2", "h*1000", {}, {}, {}, {{"cam", "h >= " + cam}}};
+    const double x = 0.05, slope = y[1] - y[0] - M[1] / 6;
+    const mechanics::State start{x / w, mechanics::Vector{{y[0] + slope * x + M[1] * x * x * x / 6}},
+                                 mechanics::Vector{{w * (slope + M[1] * x * x / 2)}}};
+    for (std::size_t i = 1; i + 1 < y.size(); ++i) {
+      CAPTURE(cam);
+      CAPTURE(i);
+      const Followed motion = followed(follower, start, static_cast<double>(i) / w);
+      CHECK(motion.of(mechanics::EventKind::impact).empty());
+      CHECK(motion.of(mechanics::EventKind::release).empty());
+      CHECK(motion.motion.acceleration()[0] == doctest::Approx(w * w * M[i]).epsilon(1e-9));
+    }
+  }
+}
