@@ -130,8 +130,8 @@ std::string assembly_text(const LagrangianSystem& system, const Assembly& found,
 
 TomlValue number_value(double x) { return number_setting("", x).value; }
 
-/// The file with the state found in it; in_contact and solve_for have done their work.
-std::string assembled_file(TomlValue document, const LagrangianSystem& system,
+/// The file with the state found in it, in a form; in_contact and solve_for have done their work.
+std::string assembled_file(TomlValue document, DocumentForm form, const LagrangianSystem& system,
                            const mechanics::State& state) {
   for (TomlEntry& entry : document.table) {
     if (entry.key != "state") continue;
@@ -148,7 +148,7 @@ std::string assembled_file(TomlValue document, const LagrangianSystem& system,
     kept.push_back({"velocity", {}, std::move(velocity)});
     entry.value.table = std::move(kept);
   }
-  return toml_text(document);
+  return form == DocumentForm::json ? json_text(document) : toml_text(document);
 }
 
 Exit assemble_file(const AssembleOptions& options) {
@@ -168,10 +168,14 @@ Exit assemble_file(const AssembleOptions& options) {
     std::sort(asked->begin(), asked->end());
     asked->erase(std::unique(asked->begin(), asked->end()), asked->end());
   }
+  const DocumentForm form = options.output ? form_of(*options.output) : DocumentForm::toml;
+  if (form != DocumentForm::toml && form != DocumentForm::json)
+    throw convex::InvalidInput("--output " + *options.output +
+                               ": this form holds no mechanism; name the file .toml or .json");
   const mechanics::State guess = system->state(text->state);
   const Assembly found = mechanics::assemble(*system, guess, question);
   if (options.output && found.status == AssemblyStatus::solved)
-    write_file(*options.output, assembled_file(document, *system, found.state));
+    write_file(*options.output, assembled_file(document, form, *system, found.state));
   if (options.json)
     fmt::print("{}\n", assembly_json(*system, question, found, options.file));
   else if (!options.quiet)

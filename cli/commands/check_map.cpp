@@ -186,9 +186,8 @@ void add_map(CLI::App& command, MapOptions& options) {
       ->type_name("MATRIX");
   command.add_option("--box", options.box, "with --map: where to look, for every coordinate; default -4:4")
       ->type_name("LOW:HIGH");
-  command
-      .add_option("--data", options.data, "with --map: where it is not refuted, z, T z and f(T z) on a grid")
-      ->type_name("F.csv");
+  add_table(command, "--data", options.data,
+            "with --map: where it is not refuted, z, T z and f(T z) on a grid");
 }
 
 Exit check_map(const MapOptions& options, const Printing& printing) {

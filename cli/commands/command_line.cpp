@@ -46,6 +46,17 @@ std::string nonnegative_number(const std::string& text) {
   return text + " is not a number from 0 on; give 0 or more";
 }
 
+std::string name_of_numbers(const std::string& file) {
+  for (const char* ending : {".svg", ".png", ".pdf", ".html", ".htm"})
+    if (file.ends_with(ending))
+      return file + " is the name of a picture or a page, and numbers are written here; name a table, F.csv";
+  return "";
+}
+
+void add_table(CLI::App& command, const char* option, std::optional<std::string>& file, const char* help) {
+  command.add_option(option, file, help)->type_name("F.csv")->check(name_of_numbers);
+}
+
 void add_accuracy(CLI::App& command, AccuracyOptions& options, const char* tolerance, const char* method) {
   command.add_option("--method", options.method, method)->type_name("NAME");
   command.add_option("--tolerance", options.tolerance, tolerance)->type_name("X")->check(positive_number);
@@ -98,7 +109,7 @@ void add_measurement(CLI::App& command, MeasurementOptions& options, const char*
   command.add_option("--method", options.method, "this method alone")->type_name("NAME");
   command.add_option("--output", options.output, "the picture: F.svg, F.png or F.pdf (drawn by gnuplot)")
       ->type_name("FILE");
-  command.add_option("--data", options.data, columns)->type_name("F.csv");
+  add_table(command, "--data", options.data, columns);
   command.add_flag("--quick", options.quick, "fewer and smaller problems, half a minute at most");
   command.add_flag("--quiet", options.quiet, "no text");
 }

@@ -75,6 +75,10 @@ void add_step_tolerance(CLI::App& command, MotionChoice&);
 /// Of the text of an option: "", or what is wrong with it.
 std::string positive_number(const std::string& text);
 std::string nonnegative_number(const std::string& text);
+/// Refuses the name of a picture or a page for a file of numbers.
+std::string name_of_numbers(const std::string& file);
+/// An option that names a table to write.
+void add_table(CLI::App& command, const char* option, std::optional<std::string>& file, const char* help);
 
 /// A function with a point and a metric, as `prox` and `conjugate` are asked for.
 struct FunctionOptions : Printing, AccuracyOptions {

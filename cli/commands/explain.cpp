@@ -25,10 +25,16 @@ struct ExplainOptions : FileOptions, SceneOptions {
   std::optional<std::string> output;  ///< a file to write
 };
 
+/// In the form that is asked for, else in that of the file's ending.
 std::string written(const Document& document, const ExplainOptions& options) {
-  if (options.latex) return document_latex(document);
-  if (options.html) return document_html(document);
-  if (options.markdown) return document_markdown(document);
+  const bool is_asked = options.latex || options.html || options.markdown;
+  const auto is_of = [&](bool asked, std::initializer_list<const char*> endings) {
+    const auto ends = [&](const char* ending) { return options.output && options.output->ends_with(ending); };
+    return asked || (!is_asked && std::any_of(endings.begin(), endings.end(), ends));
+  };
+  if (is_of(options.latex, {".tex"})) return document_latex(document);
+  if (is_of(options.html, {".html", ".htm"})) return document_html(document);
+  if (is_of(options.markdown, {".md"})) return document_markdown(document);
   return document_text(document);
 }
 
@@ -177,7 +183,10 @@ void add_explain(CLI::App& program, Work& chosen) {
   command.add_flag("--markdown", options->markdown, "as Markdown, formulas between dollars");
   command.add_flag("--latex", options->latex, "as a LaTeX file");
   command.add_flag("--html", options->html, "as one HTML file");
-  command.add_option("-o,--output", options->output, "the file to write")->type_name("F");
+  command
+      .add_option("-o,--output", options->output,
+                  "the file to write; its ending .md, .tex or .html tells the form")
+      ->type_name("F");
 }
 
 }  // namespace cli::inline commands

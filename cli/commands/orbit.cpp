@@ -218,7 +218,7 @@ void add_orbit(CLI::App& program, Work& chosen) {
       ->allow_extra_args(false);
   command.add_option("--over", options->over, "the orbit continued over a parameter: \"w=1:0.01:3\"")
       ->type_name("w=A:S:B");
-  command.add_option("--output", options->output, "the branch of --over as a table")->type_name("F.csv");
+  add_table(command, "--output", options->output, "the branch of --over as a table");
   command
       .add_option("--plot", options->plot,
                   "the branch of --over as a picture: F.svg, F.png or F.pdf (by gnuplot)")

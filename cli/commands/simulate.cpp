@@ -277,9 +277,10 @@ void add_simulate(CLI::App& program, Work& chosen) {
       .add_option("--method", options->method,
                   "event-driven, the default, time-stepping, or auto: by the number of contacts and events")
       ->type_name("NAME");
-  command.add_option("--output", options->output, "the trajectory as a table: t, q, q', q'', lambda, energy")
-      ->type_name("F.csv");
-  command.add_option("--events", options->events, "a line of JSON for each event")->type_name("F.jsonl");
+  add_table(command, "--output", options->output, "the trajectory as a table: t, q, q', q'', lambda, energy");
+  command.add_option("--events", options->events, "a line of JSON for each event")
+      ->type_name("F.jsonl")
+      ->check(name_of_numbers);
   command
       .add_option("--plot", options->plot,
                   "coordinates, gaps, multipliers and energy over time: F.svg, F.png or F.pdf (by gnuplot)")

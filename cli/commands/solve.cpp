@@ -166,10 +166,8 @@ void add_solve(CLI::App& program, Work& chosen) {
       .add_option("--probe", options->liquid.probes, "of a liquid: p and d(div u)/dt there: \"x=0.3, y=0\"")
       ->type_name("POINT")
       ->allow_extra_args(false);
-  command
-      .add_option("--data", options->liquid.data,
-                  "of a liquid: a table of the coordinates, p, growth, cavity (0 or 1)")
-      ->type_name("F.csv");
+  add_table(command, "--data", options->liquid.data,
+            "of a liquid: a table of the coordinates, p, growth, cavity (0 or 1)");
   command.add_option("--vtk", options->liquid.vtk, "of a liquid: the same for ParaView")->type_name("F.vti");
   command.add_flag("--velocity", options->liquid.velocity, "of a liquid: u as arrows in the --plot");
   command

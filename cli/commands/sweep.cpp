@@ -337,8 +337,9 @@ void add_sweep(CLI::App& program, Work& chosen) {
                   "accelerations and multipliers")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command.add_option("--output", options->output, "the table; default standard output")->type_name("F.csv");
-  command.add_option("--plot", options->plot, "a picture: F.svg, F.png or F.pdf (by gnuplot)")->type_name("FILE");
+  add_table(command, "--output", options->output, "the table; default standard output");
+  command.add_option("--plot", options->plot, "a picture: F.svg, F.png or F.pdf (by gnuplot)")
+      ->type_name("FILE");
   command.add_flag("--resume", options->resume, "go on behind the last row of --output");
   command.add_option("--threads", options->threads, "how many at once; default all cores")->type_name("N");
   add_accuracy(command, *options);

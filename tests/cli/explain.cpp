@@ -186,6 +186,22 @@ TEST_CASE("the HTML file asks nothing of a network, and the LaTeX file is whole"
   }
 }
 
+TEST_CASE("explain writes in the form that an option asks for, else in that of the file's ending") {
+  const Folder folder;
+  const std::string file = folder.write("a.toml", point_on_floor());
+  const auto written = [&](const std::string& name, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"explain", file, "-o", folder.path(name)});
+    CHECK(run(more).code == 0);
+    return explained_bytes(folder.path(name));
+  };
+  for (const auto& [ending, option] :
+       {std::pair(".html", "--html"), {".tex", "--latex"}, {".md", "--markdown"}}) {
+    CHECK(written(std::string("b") + ending) == run({"explain", file, option}).out);
+    CHECK(written(std::string("c") + ending, {"--markdown"}) == run({"explain", file, "--markdown"}).out);
+  }
+  CHECK(written("d.txt") == run({"explain", file}).out);
+}
+
 TEST_CASE("explain says in words which equation an added row is") {
   const std::vector<std::string> told =
       naming(run_on("explain", pushing_at_dead_centre()).out, "Added row 1");

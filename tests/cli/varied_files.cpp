@@ -144,16 +144,18 @@ TEST_CASE("what assemble writes solves with the contacts asked for") {
       "[system]\ncoordinates = [\"x\", \"y\", \"th\"]\nkinetic = \"2*(x'^2 + y'^2) + 100/24*th'^2\"\n"
       "[system.constraints]\nfloor = \"y - 2.5*sin(th) >= 0\"\nwall = \"x - 2.5*cos(th) >= 0\"\n"
       "[state]\nposition = { x = 1.8, y = 2.2, th = 0.9 }\n");
-  const std::string out = folder.path("out.toml");
-  const Outcome found =
-      run({"assemble", file, "--contact", "floor", "--contact", "wall", "-o", out, "--json"});
-  CHECK(found.code == 0);
-  const Json state = Json::parse(found.out);
-  const double th = state.at("position").at("th");
-  CHECK(double(state.at("position").at("x")) == doctest::Approx(2.5 * std::cos(th)).epsilon(1e-14));
-  const Json constraints = Json::parse(run({"solve", "--json", out}).out).at("constraints");
-  CHECK(constraints.at("floor").at("state") != "inactive");
-  CHECK(constraints.at("wall").at("state") != "inactive");
+  for (const char* name : {"out.toml", "out.json"}) {  // in the form of the name
+    const std::string out = folder.path(name);
+    const Outcome found =
+        run({"assemble", file, "--contact", "floor", "--contact", "wall", "-o", out, "--json"});
+    CHECK(found.code == 0);
+    const Json state = Json::parse(found.out);
+    const double th = state.at("position").at("th");
+    CHECK(double(state.at("position").at("x")) == doctest::Approx(2.5 * std::cos(th)).epsilon(1e-14));
+    const Json constraints = Json::parse(run({"solve", "--json", out}).out).at("constraints");
+    CHECK(constraints.at("floor").at("state") != "inactive");
+    CHECK(constraints.at("wall").at("state") != "inactive");
+  }
   const Outcome unknown = run({"assemble", file, "--contact", "flor"});
   CHECK(unknown.code == 2);
   CHECK(unknown.err.find("floor") != std::string::npos);
