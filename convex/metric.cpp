@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "convex/counted.hpp"
 #include "convex/dense/recycled.hpp"
 #include "convex/dense/triangular_solve.hpp"
 #include "convex/infinity.hpp"
@@ -53,7 +52,7 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
 }
 
 void require_size(Index m, Index n) {
-  if (m != n) throw InvalidInput("metric: " + counted(m, "entry", "entries") + "; give " + std::to_string(n));
+  if (m != n) throw InvalidInput("metric: size " + std::to_string(m) + "; give size " + std::to_string(n));
 }
 
 void require_finite(double value, Index i, Index j) {
@@ -167,8 +166,8 @@ Metric Metric::diagonal(const Vector& d) {
 
 Metric Metric::dense(const Matrix& W) {
   if (W.rows() != W.cols())
-    throw InvalidInput("A: " + counted(W.rows(), "row", "rows") + " of " +
-                       counted(W.cols(), "entry", "entries") + "; give a square matrix");
+    throw InvalidInput("A: " + std::to_string(W.rows()) + " by " + std::to_string(W.cols()) +
+                       "; give a square matrix");
   const std::shared_ptr<Data> data = Recycled<Data, Data::is_small>::one();
   const Index n = W.rows();
   data->kind = MetricKind::dense;
@@ -203,8 +202,8 @@ Metric Metric::dense(const Matrix& W, const Matrix& L) {
 
 Metric Metric::sparse(const SparseMatrix& W) {
   if (W.rows() != W.cols())
-    throw InvalidInput("A: " + counted(W.rows(), "row", "rows") + " of " +
-                       counted(W.cols(), "entry", "entries") + "; give a square matrix");
+    throw InvalidInput("A: " + std::to_string(W.rows()) + " by " + std::to_string(W.cols()) +
+                       "; give a square matrix");
   auto data = std::make_shared<Data>();
   const Index n = W.rows();
   data->kind = MetricKind::sparse;

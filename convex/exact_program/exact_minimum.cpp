@@ -4,7 +4,6 @@
 #include <numeric>
 #include <string>
 
-#include "convex/counted.hpp"
 #include "convex/exact_program/cgal_program.hpp"
 #include "convex/exact_program/linear_equations.hpp"
 #include "convex/exact_program/program_operations.hpp"
@@ -290,7 +289,7 @@ std::optional<GraphPoint> near_graph_point(const ExactProgram& f, const Vector& 
 
 ExactMinimum exact_prox(const ExactProgram& f, const ExactGram& W, const Fractions& z) {
   if (z.size() != W.dimension() || f.n != W.dimension())
-    throw InvalidInput("prox: " + counted(z.size(), "entry", "entries") + "; give " +
+    throw InvalidInput("prox: " + std::to_string(z.size()) + " entries; give " +
                        std::to_string(W.dimension()) + ", as many as f and the metric have");
   return minimum_of(f, &W, z);
 }

@@ -20,7 +20,7 @@ struct Refusal {
 };
 
 const Refusal refusals[] = {
-    {"sum_largest(4)", "3 entries have no 4 largest"},
+    {"sum_largest(4)", "there are no 4 largest of 3 entries"},
     {"box(2, 1)", "empty"},
     {"box([0,0,0], [1,-1,1])", "entry 1"},
     {"box([0,0], [1,1])", "entries"},
@@ -62,7 +62,7 @@ const Refusal refusals[] = {
     {"nuclear_norm(1, 2)", "rows"},
     {"nuclear_norm(1, 0)", "rows"},
     {"sum_largest(0)", "k"},
-    {"sum_largest(4)", "sum_largest: 3 entries"},
+    {"sum_largest(4)", "sum_largest: there are no 4 largest of 3"},
     {"sum_largest(1.5)", "k"},
     {"power(0.5)", "p"},
     {"power(inf)", "p"},
