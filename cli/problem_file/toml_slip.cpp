@@ -275,6 +275,9 @@ std::string advice_on_slip(const std::string& text, convex::Place place, std::st
     return "\"%\" begins no comment; write # before it";
   if (says(description, "root table") && says(description, "saw '{'"))
     return "this is JSON, not TOML; name the file .json";
+  if (says(description, "utf-8")) return "no text in UTF-8; save the file as UTF-8 and not, say, as UTF-16";
+  if (says(description, "after '\\r'"))
+    return "a line that ends with a carriage return alone; save the file with line ends of Unix or Windows";
   const Spot spot = spot_of(text, place);
   std::string advice = advice_on_structure(spot, description);
   if (advice.empty()) advice = advice_on_value(spot);

@@ -48,3 +48,9 @@ TEST_CASE("what stands below a table of names and belongs elsewhere is told wher
   const Outcome own = run_on("solve", point_on_floor({{6, "m = 2.0\npotential = 1"}}));
   CHECK(own.code == 0);
 }
+
+TEST_CASE("a file of another encoding, or of other line ends, is told how to save it") {
+  check_told("[\xff\xfes\x00y\x00", {"1:1: no text in UTF-8; save the file as UTF-8"});
+  check_told("[system]\rcoordinates = []\r", {"1:10: a line that ends with a carriage return alone; save"});
+  CHECK(told("[system]\r\ncoordinates = [1]\r\nkinetic = \"0\"\r\n").front().starts_with("2:16: "));
+}
