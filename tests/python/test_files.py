@@ -140,6 +140,13 @@ class Motions(unittest.TestCase):
                 moreau.Motion(BALL).run(until=2, times=times)
         with self.assertRaisesRegex(ValueError, "before t = 0"):
             moreau.Motion(BALL).run(until=-1)
+        for until in ("1", float("inf"), float("nan")):
+            with self.assertRaisesRegex(ValueError, "^until: .* is no time; give a finite number$"):
+                moreau.Motion(BALL).run(until)
+        with self.assertRaisesRegex(KeyError, r"z: no such column; there are y, lambda.floor."):
+            moreau.Motion(BALL).run(until=1)["z"]
+        with self.assertRaisesRegex(moreau.InvalidInput, "^set: a str; give a dict"):
+            moreau.Motion(BALL, set="m=3")
         with self.assertRaisesRegex(ValueError, "until"):
             moreau.Motion({key: BALL[key] for key in ("system", "state")}).run()
 

@@ -60,7 +60,7 @@ class Atlas(dict):
         for one in self.cells:
             if set(one.contacts) == set(contacts):
                 return one
-        raise KeyError(contacts)
+        raise KeyError(f"no cell has exactly the contacts {', '.join(contacts) or 'none'}; see `cells`")
 
     def cells_at(self, z):
         """The cells that contain the force z, several on their edges: decided in fractions. z: one number per

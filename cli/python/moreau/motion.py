@@ -34,7 +34,8 @@ class Trajectory:
             return self.multipliers[:, self.constraints.index(name[7:-1])]
         order = len(name) - len(name.rstrip("'"))
         if order > 2 or name.rstrip("'") not in self.coordinates:
-            raise KeyError(name)
+            known = [*self.coordinates, *(f"lambda[{one}]" for one in self.constraints)]
+            raise KeyError(f"{name}: no such column; there are {', '.join(known)}, and with ' and '' the derivatives")
         table = (self.position, self.velocity, self.acceleration)[order]
         return table[:, self.coordinates.index(name.rstrip("'"))]
 
@@ -67,6 +68,8 @@ class Motion:
             until = self._motion.until
         if until is None:
             raise ValueError("until: missing; give it, or write until = 3.0 below [simulate]")
+        if isinstance(until, str) or not math.isfinite(until):
+            raise ValueError(f"until: {until!r} is no time; give a finite number")
         if not until >= self.t:
             raise ValueError(f"until: {until} is before t = {self.t}; the motion goes forward")
         if times is None:

@@ -97,6 +97,8 @@ def written(numbers):
 
 def document_of(problem, settings):
     """The document of a path or a dict. settings: {"m": 3, "position.x": 0.2}."""
+    if settings is not None and not isinstance(settings, dict):
+        raise _moreau.InvalidInput(f"set: a {type(settings).__name__}; give a dict, such as {{\"m\": 3}}")
     given = [f"{key}={value}" for key, value in (settings or {}).items()]
     if not isinstance(problem, (dict, str, os.PathLike)):
         raise _moreau.InvalidInput(f"a {type(problem).__name__} is no problem; give a file, a dict, or A=, z=, U=, s=")
