@@ -43,7 +43,7 @@ convex::Metric kinetic_metric(const convex::SparseMatrix& A, const std::vector<s
     if (n > 0 && A.squaredNorm() == 0)
       throw convex::InvalidInput(
           "kinetic: T is not positive definite in the velocities at this state, it is 0 whatever they are; "
-          "give every motion a positive kinetic energy, the velocity of " +
+          "give every motion a positive kinetic energy, a mass above 0 and a velocity, that of " +
           coordinates[0] + " is " + coordinates[0] + "'");
     Index fault = -1;
     for (Index i = 0; i < n && fault < 0; ++i)
