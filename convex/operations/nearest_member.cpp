@@ -51,8 +51,8 @@ double miss_of(const Function& f, const Vector& x, double size) {
 
 double cost_of_miss(double miss, const std::optional<Vector>& slope) {
   constexpr double where_it_bends = 4;
-  if (miss == 0) return 0;
-  return slope && slope->allFinite() ? where_it_bends * length_of(*slope) * miss : infinity;
+  if (miss == 0 || !slope) return 0;
+  return slope->allFinite() ? where_it_bends * length_of(*slope) * miss : infinity;
 }
 
 }  // namespace convex::inline operations

@@ -22,7 +22,7 @@ double miss_of(const Function& f, const Vector& x, double size);
 
 /// By how much a value at points that miss their domains may be too low, as that of a sum over a split of x:
 /// to first order what they miss times the slope at x; where a part bends sharply there, as the root of u at
-/// 0, more. Without a slope, without bound.
+/// 0, more. Nothing where no slope is known, as at an x that is in the domain but for rounding.
 double cost_of_miss(double miss, const std::optional<Vector>& slope);
 
 }  // namespace convex::inline operations

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/gamma0/node.hpp"
 #include "convex/gamma0/work_limit.hpp"
@@ -31,7 +32,10 @@ Vector beyond(const Vector& y, const Vector& lo) {
 /// first half of the way and over half of the rest. Where it rises no less there, as -log x and 1/x do
 /// towards 0, without end.
 double rise_towards(const Function& f, const Vector& y, const Vector& inside, const Value& there) {
-  const auto at = [&](double part) { return f.evaluate(y + part * (inside - y)).value; };
+  const auto at = [&](double part) {
+    const Value value = f.evaluate(y + part * (inside - y));
+    return std::isfinite(value.error) ? value.value : std::numeric_limits<double>::quiet_NaN();
+  };
   const double first = at(0.5) - there.value;
   if (!std::isfinite(first) || !(first > 0)) return 0;
   const double rounding = roundings_of_a_term * (unit_roundoff * std::abs(there.value) + there.error);

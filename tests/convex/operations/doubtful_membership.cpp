@@ -146,3 +146,15 @@ TEST_CASE("a proximal average at a corner of its domain, one part steep there, i
         CHECK(found.error <= 1e-4);
       }
 }
+
+TEST_CASE("an entry that misses its domain by the rounding of others has the value at the end") {
+  // Of x log x and the box [-1, 1]: (x - 1) log(x - 1) beyond 2, 0 at -1.
+  const Function f = samples::function("inf_convolution(entropy(), indicator(box(-1, 1)))", 3);
+  const auto beyond = [](double x) { return (x - 1) * std::log(x - 1); };
+  for (const double miss : {0.0, 1e-15, 2e-13, 1e-12, 1e-11, 1e-10}) {
+    CAPTURE(miss);
+    const Value found = f.evaluate(Eigen::Vector3d(3e5, -1 - miss, 2e6));
+    CHECK(std::abs(found.value - beyond(3e5) - beyond(2e6)) <= found.error);
+    CHECK(found.error <= 1e-12 * found.value);
+  }
+}
